@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file app/body.hpp
+/// A body put together from the scene: the stages its material calls for, the columns they ask for, its points.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/geometry/lattice.hpp"
+#include "krater/points/layout.hpp"
+#include "krater/scene/scene.hpp"
+#include "krater/step/kernels.hpp"
+
+namespace krater {
+
+/// A stage and what it is, for `krater check`.
+struct NamedStage {
+  std::string name;
+  std::unique_ptr<const Stage> stage;
+};
+
+class Body {
+ public:
+  /// Makes stages and columns; no points yet. Throws InputError.
+  Body(const Scene& scene, int index, const StageFactory& factory);
+
+  const std::string& name() const { return options_->name; }
+  const BodyOptions& options() const { return *options_; }
+  const MaterialOptions& material() const { return *material_; }
+  const Layout& layout() const { return layout_; }
+  const std::vector<NamedStage>& stages() const { return stages_; }
+  const FillReport& fill_report() const { return fill_; }
+  double q_lin() const { return q_lin_; }
+  double initial_sound_speed() const { return sound_speed_; }  ///< longitudinal, undeformed [m/s]
+  BodyKernelData kernel_data() const;
+
+  /// Seeds of the body inside the domain; throws InputError when there are none.
+  std::vector<SeedPoint> seeds(const Scene& scene);
+  /// A new point as one record of stride/8 doubles.
+  void make_point(const Scene& scene, const SeedPoint& seed, std::size_t id, std::vector<double>& record) const;
+  /// Offset in a point's record (doubles), -1 if the column does not exist.
+  int slot(const FieldInfo& field, int component = 0) const;
+
+ private:
+  void declare_method_columns(const Scene& scene);
+  void add_stages(const StageFactory& factory);
+  void add(std::string name, Stage* stage);
+
+  const BodyOptions* options_;
+  const MaterialOptions* material_;
+  Layout layout_;
+  std::vector<NamedStage> stages_;
+  std::vector<const Stage*> stage_pointers_;
+  FillReport fill_;
+  double q_lin_ = 0, q_quad_ = 0, sound_speed_ = 0;
+};
+
+/// The domain of a scene as a box in grid axes.
+Box domain_box(const Scene& scene);
+
+}  // namespace krater

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file app/command_line.hpp
+/// krater run | check | models. Exit codes: 0 done, 2 bad input, 3 numerical failure, 4 interrupted.
+
+namespace krater {
+
+int command_line(int argc, char** argv);
+
+/// `krater check`: what would be run. Throws InputError.
+struct RunOptions;
+void print_check(const RunOptions& options);
+/// `krater models [NAME]`.
+void print_models(const char* name);
+
+}  // namespace krater

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file app/simulation.hpp
+/// A scene assembled and stepped: bodies, grid, boundaries, kernels of the best instruction set, time-step control.
+/// Knows nothing of files; what it hands out are the plain structs of output/results.hpp.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/app/body.hpp"
+#include "krater/output/results.hpp"
+#include "krater/step/kernel_levels.hpp"
+#include "krater/step/mpm_step.hpp"
+
+namespace krater {
+
+/// Totals over the points, measured by a slow independent walk over the columns.
+struct Totals {
+  double count = 0, mass = 0, kinetic = 0, internal = 0;
+  std::array<double, 3> momentum{};
+  double angular_momentum = 0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
+};
+
+class Simulation {
+ public:
+  /// The scene must outlive the simulation. Throws InputError.
+  explicit Simulation(const Scene& scene, IsaLevel level = best_isa_level());
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  double time() const { return time_; }
+  std::int64_t steps() const { return steps_; }
+  double dt() const { return dt_; }  ///< of the last step [s]
+  bool done() const { return time_ >= scene_.time.end; }
+  /// Take one step, not past `until` [s]. Throws NumericalError.
+  void step(double until);
+  const char* limiter() const;  ///< what limits the time step
+
+  IsaLevel isa_level() const { return level_; }
+  std::size_t point_count() const;
+  std::size_t block_count() const { return grid_.patches.size(); }
+  double bytes_per_point() const;
+  const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
+  const BlockGrid& grid() const { return grid_; }
+  BlockGrid& grid() { return grid_; }
+  const Audit& audit() const { return step_->audit(); }
+  const GridGeometry& geometry() const { return geometry_; }
+  Totals totals(int body = -1) const;  ///< of one body, or of all
+
+  /// Call visit(patch, index in the patch) for every point of a body in order of its id.
+  std::vector<std::pair<int, int>> points_by_id(int body) const;
+  double value(int patch, int point, int slot) const;  ///< component at a slot (Body::slot)
+  void set_value(int patch, int point, int slot, double x);
+
+  Checkpoint save() const;
+  void restore(const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
+
+ private:
+  void place_points();
+  void choose_first_step();
+  void apply_body_force();
+  double next_step(double until);
+  [[noreturn]] void fail(const StepFault& fault) const;
+  std::string describe_point(int patch, int point) const;
+
+  const Scene& scene_;
+  IsaLevel level_;
+  GridGeometry geometry_;
+  std::vector<std::unique_ptr<Body>> bodies_;
+  std::vector<BodyKernelData> kernel_data_;
+  BlockGrid grid_;
+  BoundarySet boundary_;
+  std::unique_ptr<Kernels> kernels_;
+  std::unique_ptr<MpmStep> step_;
+  double time_ = 0, dt_ = 0, dt_free_ = 0, min_step_ = 0;  ///< dt_free_: before clipping to output times
+  double max_rate_ = 0;
+  int limiter_kind_ = 0;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace krater

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file app/version.hpp
+#include <string>
+
+namespace krater {
+
+struct Version {
+  std::string program, revision, compiler, build;
+};
+Version version();
+
+}  // namespace krater

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file grid/blocks.hpp
+/// The sparse background grid and who lies where. Space is cut into blocks of block_edge^dim nodes. A patch holds the
+/// points of one body whose base node lies in one block, with a private tile of nodes they scatter into; a node
+/// block sums the tiles that overlap it in a fixed order. Blocks exist only where points are, so the size of the
+/// domain costs nothing, and nothing depends on the number of threads.
+///
+/// Nodes are counted from the lower domain plane, shifted by one: the plane is storage index 1, the ghost beyond it 0.
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "krater/core/aligned.hpp"
+#include "krater/points/batch_types.hpp"
+
+namespace krater {
+
+inline constexpr int kNodeDoubles = 8;   ///< one node = one cache line = one vector register
+inline constexpr int kBlockNodes = 64;   ///< nodes (and cells) of a block: 4^3 or 8^2
+constexpr int block_edge(int dimension) { return dimension == 3 ? 4 : 8; }
+constexpr int tile_edge(int dimension) { return block_edge(dimension) + 2; }
+constexpr int tile_nodes(int dimension) { return dimension == 3 ? 216 : 100; }
+constexpr int corner_count(int dimension) { return dimension == 3 ? 8 : 4; }      ///< 2^dim
+constexpr int neighbour_count(int dimension) { return dimension == 3 ? 27 : 9; }  ///< 3^dim
+
+struct GridGeometry {
+  int dimension = 3;
+  double h = 1, inv_h = 1;
+  std::array<double, 3> min{};  ///< lower domain planes [m]
+  std::array<int, 3> cells{};   ///< number of cells; upper planes at storage index cells + 1
+  /// Storage coordinate: 1 on the lower plane. The same expression decides weights and ownership.
+  double storage(double x, int axis) const { return (x - min[static_cast<std::size_t>(axis)]) * inv_h + 1; }
+  double upper(int axis) const {
+    return min[static_cast<std::size_t>(axis)] + h * cells[static_cast<std::size_t>(axis)];
+  }
+};
+
+struct BlockKey {
+  std::array<std::int32_t, 3> i{};
+  auto operator<=>(const BlockKey&) const = default;
+};
+
+/// The block that owns a position of `dimension` coordinates.
+BlockKey block_of(const GridGeometry& geometry, const double* position);
+
+/// Points that leave a patch: whole records, point by point, with the neighbour they go to.
+struct Outbox {
+  std::vector<double> records;
+  std::vector<std::uint8_t> slots;  ///< neighbour 0..26, lexicographic in (-1, 0, 1) per axis
+  std::uint32_t used = 0;           ///< bit per slot
+  void clear() { records.clear(), slots.clear(), used = 0; }
+};
+
+/// What one sweep over a patch leaves behind; combined over patches in patch order.
+struct PatchResult {
+  double max_rate = 0;       ///< max (|v| + signal speed)/h, or |tr D|/0.1 [1/s]
+  int limiter = 0;           ///< 0 wave, 1 flow, 2 dilatation
+  int limiting_point = 0;    ///< index in the patch
+  double kinetic = 0;        ///< [J], affine part included
+  double internal = 0;       ///< [J]
+  double external_work = 0;  ///< [J] of body forces in the step
+  Ledger ledger;
+  Fault fault;
+};
+
+struct Patch {
+  BlockKey key;
+  int body = 0;
+  int count = 0;
+  AlignedBuffer records;  ///< lane groups of the body's layout
+  AlignedBuffer tile;     ///< tile_nodes * kNodeDoubles
+  AlignedBuffer beta;     ///< per cell: 1 averaged .. 0 shock
+  std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim, filled by rebuild
+  std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
+  Outbox outbox;
+  PatchResult result;
+  int groups() const { return (count + 7) / 8; }
+};
+
+struct TileRef {
+  int patch;
+  int corner;  ///< bit a set: the patch lies one block below along axis a
+};
+
+/// Sums of one node block, combined in block order.
+struct NodeSums {
+  double kinetic_before = 0, kinetic_after = 0;  ///< 1/2 sum m |v^-|^2, 1/2 sum m |v^+|^2 [J]
+  double max_change = 0;                         ///< max |dv| over nodes that hold material [m/s]
+};
+
+struct NodeBlock {
+  BlockKey key;
+  int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
+  bool at_boundary = false;
+  double* nodes = nullptr;      ///< kBlockNodes * kNodeDoubles
+  NodeSums sums;
+};
+
+class BlockGrid {
+ public:
+  explicit BlockGrid(const GridGeometry& geometry) : geometry_{geometry} {}
+
+  const GridGeometry& geometry() const { return geometry_; }
+  std::vector<Patch> patches;        ///< sorted by (key, body) after rebuild()
+  std::vector<NodeBlock> node_blocks;  ///< sorted by key
+  std::vector<TileRef> tile_refs;
+
+  int find_patch(const BlockKey& key, int body) const;            ///< -1: none
+  int find_node_block(const BlockKey& key) const;                 ///< -1: none
+  double* find_node(const std::array<int, 3>& storage_index) const;  ///< nullptr: not stored
+  /// Sort patches, drop empty ones if asked, lay out node blocks and all links.
+  void rebuild(bool drop_empty);
+
+ private:
+  void make_node_blocks();
+  void link_patches();
+
+  GridGeometry geometry_;
+  AlignedBuffer node_memory_;
+};
+
+/// Offset of neighbour `slot` (0..3^dim-1) or corner (bits) along an axis.
+constexpr int slot_offset(int slot, int axis, int dimension) {
+  int power = 1;
+  for (int a = dimension - 1; a > axis; --a) power *= 3;
+  return (slot / power) % 3 - 1;
+}
+constexpr int corner_offset(int corner, int axis) { return (corner >> axis) & 1; }
+BlockKey shifted(const BlockKey& key, int slot, int dimension);
+
+}  // namespace krater

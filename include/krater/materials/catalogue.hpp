@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// The catalogue: one entry per law of materials/law_list.hpp, for reading scenes, `krater models`
+/// and the manual.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "krater/core/parameters.hpp"
+#include "krater/materials/factories.hpp"
+
+namespace krater {
+
+struct LawInfo {
+  std::string family;  ///< the block of the scene: strength, eos, viscosity, heating
+  std::string name;
+  std::vector<ParameterInfo> parameters;  ///< in the order `StageFactory::make` takes their values
+  std::string equation;
+  std::string reference;
+  bool needs_shear_modulus;  ///< the material must have shear_modulus > 0
+  bool whole_stress;         ///< gives the pressure too: must be used without an eos
+};
+
+const std::vector<LawInfo>& catalogue();
+
+/// Index in catalogue(), or -1.
+int find_law(std::string_view family, std::string_view name);
+
+/// Names of a family, in catalogue order; the message of an unknown name lists them.
+std::vector<std::string> law_names(std::string_view family);
+
+/// What is wrong between parameters that are each in range (T_melt below T_ref), or nullptr.
+const char* law_problem(int law, const double* values, const MaterialConstants& constants);
+
+}  // namespace krater

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Pressure, internal energy and sound speed of the step: Algorithm 1 (52)-(60) with alpha = beta =
+/// 1/2 in specific volume, for an undamaged material (phi = 0), for every p = A + B rho e:
+///   e*      = e_n - p_n dv/2 + w,     w = viscous and deviatoric work of the step (SpecificWork)
+///   p       = (A + B rho e*) / (1 + B rho dv/2)
+///   e_{n+1} = e* - p dv/2
+/// The carried pressure does the work and enters momentum; (55) as printed omits the last term.
+/// c^2 = K_s/rho, floored at 0.01 c0^2 and counted (theory 9).
+#pragma once
+
+#include "krater/materials/batch_access.hpp"
+#include "krater/materials/eos/split.hpp"
+#include "krater/materials/law.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+template <class Real>
+struct EnergyStep {
+  Real pressure;
+  Real energy;
+  Real denominator;  ///< must exceed 1/2, or the step was far too long
+};
+
+template <class Real>
+KRATER_FORCE_INLINE EnergyStep<Real> close_energy(const PressureSplit<Real>& split, Real p, Real e,
+                                                  Real dv, Real work) {
+  const Real half_dv = 0.5 * dv;
+  const Real e_star = fnma(p, half_dv, e + work);
+  const Real denominator = fma(split.thermal, half_dv, Real(1.0));
+  const Real pressure = fma(split.thermal, e_star, split.cold) / denominator;
+  return {pressure, fnma(pressure, half_dv, e_star), denominator};
+}
+
+template <class Law>
+class EosStage final : public Stage {
+ public:
+  EosStage(const Law& law, Layout& layout)
+      : law_{law},
+        rho_{layout.input<field::Density>(Law::name)},
+        p_{layout.state<field::Pressure>(0.0, Law::name)},
+        e_{layout.state<field::InternalEnergy>(0.0, Law::name)},
+        c_{layout.state<field::SoundSpeed>(law.c0, Law::name)},
+        volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
+        work_{layout.local_input<field::SpecificWork>(Law::name)} {}
+
+  StageOrder order() const override { return StageOrder::equation_of_state; }
+
+  void apply(const BatchData& batch) const override {
+    const auto rho_p = view(batch, rho_);
+    const auto p_p = view(batch, p_);
+    const auto e_p = view(batch, e_);
+    const auto c_p = view(batch, c_);
+    const auto v_p = view(batch, volumes_);
+    const auto w_p = view(batch, work_);
+    const Pack floor = Pack(0.01 * law_.c0 * law_.c0);
+    for (int g = 0; g < batch.groups; ++g) {
+      const Pack rho = rho_p(g);
+      const Pack v = v_p(g, 1);
+      const Pack dv = v - v_p(g, 0);
+      const EnergyStep<Pack> step = close_energy(law_.split(rho, v), p_p(g), e_p(g), dv, w_p(g));
+      report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
+      p_p.set(g, step.pressure);
+      e_p.set(g, step.energy);
+      const Pack c_squared = law_.bulk_modulus(rho, v, step.pressure, step.energy) * v;
+      c_p.set(g, sqrt(max(floor, c_squared)));  // this order keeps a NaN
+      const Mask floored = c_squared < floor;
+      if (any(floored)) batch.ledger->sound_speed_floors += count_points(batch, g, floored);
+      if constexpr (requires { law_.beyond_pole(rho); }) {
+        const Mask beyond = law_.beyond_pole(rho);
+        if (any(beyond)) batch.ledger->hugoniot_poles += count_points(batch, g, beyond);
+      }
+    }
+  }
+
+ private:
+  Law law_;
+  Input<field::Density> rho_;
+  State<field::Pressure> p_;
+  State<field::InternalEnergy> e_;
+  State<field::SoundSpeed> c_;
+  LocalInput<field::SpecificVolumes> volumes_;
+  LocalInput<field::SpecificWork> work_;
+};
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Every law of the program, once: the catalogue and the stage factories are made from this list.
+/// Adding a law is its header and its line here; an index into the list is what
+/// `StageFactory::make` takes.
+#pragma once
+
+#include "krater/materials/eos/linear.hpp"
+#include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
+#include "krater/materials/eos/mie_gruneisen_shock.hpp"
+#include "krater/materials/heating/plastic_work.hpp"
+#include "krater/materials/strength/elastic.hpp"
+#include "krater/materials/strength/johnson_cook.hpp"
+#include "krater/materials/strength/neo_hookean.hpp"
+#include "krater/materials/strength/von_mises.hpp"
+#include "krater/materials/viscosity/bulk_viscosity.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+template <class... Laws>
+struct LawList {
+  static constexpr int size = sizeof...(Laws);
+};
+
+using AllLaws = LawList<Elastic,                 //
+                        VonMises,                //
+                        JohnsonCook,             //
+                        NeoHookean,              //
+                        LinearEos,               //
+                        MieGruneisenPolynomial,  //
+                        MieGruneisenShock,       //
+                        BulkViscosity,           //
+                        PlasticWorkHeating>;
+
+}  // namespace krater::inline KRATER_ISA

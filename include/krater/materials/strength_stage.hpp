@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// Deviator of the step: objective trial (strength/trial_deviator.hpp), radial return, and the work
+/// of the deviator (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE of Algorithm 1 (52)-(60). One class for
+/// every yield law; a law that never yields has no plastic columns.
+#pragma once
+
+#include "krater/materials/batch_access.hpp"
+#include "krater/materials/law.hpp"
+#include "krater/materials/strength/pack_pair.hpp"
+#include "krater/materials/strength/radial_return.hpp"
+#include "krater/materials/strength/trial_deviator.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+/// Elastic trial of a step and what the radial return needs of it.
+template <class Real>
+struct Trial {
+  Sym3<Real> s;
+  Real q;       ///< equivalent stress [Pa]
+  Real strain;  ///< equivalent strain increment
+};
+
+template <class Real>
+KRATER_FORCE_INLINE Trial<Real> trial_step(const Sym3<Real>& s, const Mat3<Real>& dtL,
+                                           const Sym3<Real>& dE, double G) {
+  const Sym3<Real> trial = trial_deviator(s, dtL, G);
+  return {trial, equivalent_stress(trial), equivalent_strain(dE)};
+}
+
+/// s_{n+1} = s_tr sigma_Y/q_tr. That is 1 - 3G d/q_tr without its cancellation: exactly zero in a
+/// melt.
+template <class Real>
+KRATER_FORCE_INLINE Sym3<Real> returned(const Trial<Real>& trial, const PlasticStep<Real>& step) {
+  return select(step.yielding, step.stress / trial.q, Real(1.0)) * trial.s;
+}
+
+template <class Real>
+struct DeviatorUpdate {
+  Sym3<Real> s;
+  PlasticStep<Real> step;
+};
+
+/// One point's update by a yielding law; dE = sym H. The stage does the same in two halves.
+template <class Real, class Law>
+KRATER_FORCE_INLINE DeviatorUpdate<Real> update_deviator(const Law& law, const Sym3<Real>& s,
+                                                         const Mat3<Real>& dtL,
+                                                         const Sym3<Real>& dE, Real eps,
+                                                         Real temperature, double G, double dt) {
+  const Trial<Real> trial = trial_step(s, dtL, dE, G);
+  const PlasticStep<Real> step =
+      radial_return(law.at(temperature), trial.q, eps, G, trial.strain, dt);
+  return {returned(trial, step), step};
+}
+
+/// (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE; the deviators pick the deviatoric part of dE.
+template <class Real>
+KRATER_FORCE_INLINE Real deviatoric_work(const Sym3<Real>& s0, const Sym3<Real>& s1,
+                                         const Sym3<Real>& dE, Real v0, Real v1) {
+  return 0.25 * (v0 + v1) * contract(s0 + s1, dE);
+}
+
+template <class Law>
+class StrengthStage final : public Stage {
+ public:
+  StrengthStage(const Law& law, const MaterialConstants& constants, Layout& layout)
+      : law_{law},
+        G_{constants.shear_modulus},
+        s_{layout.state<field::DeviatoricStress>(0.0, Law::name)},
+        mass_{layout.input<field::Mass>(Law::name)},
+        dtL_{layout.local_input<field::StepGradient>(Law::name)},
+        strain_{layout.local_input<field::StrainStep>(Law::name)},
+        volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
+        work_{layout.local_output<field::SpecificWork>(Law::name)},
+        shear_{layout.local_output<field::ShearModulus>(Law::name)} {
+    if constexpr (Yielding<Law>) {
+      eps_ = layout.state<field::PlasticStrain>(0.0, Law::name);
+      plastic_work_ = layout.local_output<field::PlasticWork>(Law::name);
+      if constexpr (Law::reads_temperature) {
+        // Declared, never written here: without heating it is the constant initial temperature.
+        temperature_ = {
+            layout.state<field::Temperature>(constants.initial_temperature, Law::name).offset};
+      }
+    }
+  }
+
+  StageOrder order() const override { return StageOrder::strength; }
+
+  void apply(const BatchData& batch) const override {
+    if constexpr (Yielding<Law>) {
+      // Two groups at a time (strength/pack_pair.hpp); an odd last group is paired with itself.
+      for (int g = 0; g < batch.groups; g += 2)
+        apply_pair(batch, g, g + 1 < batch.groups ? g + 1 : g);
+    } else {
+      for (int g = 0; g < batch.groups; ++g) {
+        const Mat3<Pack> dtL = load_mat3(view(batch, dtL_), g);
+        finish(batch, g, trial_deviator(load_sym3(view(batch, s_), g), dtL, G_));
+      }
+    }
+  }
+
+ private:
+  KRATER_FORCE_INLINE Trial<Pack> trial(const BatchData& batch, int g) const {
+    return trial_step(load_sym3(view(batch, s_), g), load_mat3(view(batch, dtL_), g),
+                      load_sym3(view(batch, strain_), g), G_);
+  }
+
+  KRATER_FORCE_INLINE void apply_pair(const BatchData& batch, int g, int h) const {
+    const Trial<Pack> trial_g = trial(batch, g);
+    const Trial<Pack> trial_h = trial(batch, h);
+    const auto eps = view(batch, eps_);
+    PackPair temperature = PackPair(0.0);
+    if constexpr (Law::reads_temperature) {
+      const auto T = view(batch, temperature_);
+      temperature = {T(g), T(h)};
+    }
+    const PlasticStep<PackPair> step = radial_return(
+        law_.at(temperature), PackPair{trial_g.q, trial_h.q}, PackPair{eps(g), eps(h)}, G_,
+        PackPair{trial_g.strain, trial_h.strain}, batch.dt);
+    yield(batch, g, trial_g, {step.d.a, step.stress.a, step.yielding.a, step.unconverged.a});
+    if (h != g)
+      yield(batch, h, trial_h, {step.d.b, step.stress.b, step.yielding.b, step.unconverged.b});
+  }
+
+  KRATER_FORCE_INLINE void yield(const BatchData& batch, int g, const Trial<Pack>& trial,
+                                 const PlasticStep<Pack>& step) const {
+    const auto eps = view(batch, eps_);
+    const Pack plastic_work = step.stress * step.d * view(batch, volumes_)(g, 1);
+    eps.set(g, eps(g) + step.d);
+    view(batch, plastic_work_).set(g, plastic_work);
+    batch.ledger->plastic_work += sum(view(batch, mass_)(g) * plastic_work);
+    if (any(step.unconverged)) {
+      batch.ledger->unconverged += count_points(batch, g, step.unconverged);
+      report(batch, FaultKind::no_convergence, g, step.unconverged);
+    }
+    finish(batch, g, returned(trial, step));
+  }
+
+  KRATER_FORCE_INLINE void finish(const BatchData& batch, int g, const Sym3<Pack>& s) const {
+    const auto s_p = view(batch, s_);
+    const auto v = view(batch, volumes_);
+    const auto work = view(batch, work_);
+    const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
+    work.set(g, work(g) + deviatoric_work(load_sym3(s_p, g), s, dE, v(g, 0), v(g, 1)));
+    store_sym3(s_p, g, s);
+    view(batch, shear_).set(g, Pack(G_));
+  }
+
+  Law law_;
+  double G_;
+  State<field::DeviatoricStress> s_;
+  Input<field::Mass> mass_;
+  LocalInput<field::StepGradient> dtL_;
+  LocalInput<field::StrainStep> strain_;
+  LocalInput<field::SpecificVolumes> volumes_;
+  LocalOutput<field::SpecificWork> work_;
+  LocalOutput<field::ShearModulus> shear_;
+  State<field::PlasticStrain> eps_{-1};  // these three: yielding laws only
+  LocalOutput<field::PlasticWork> plastic_work_{-1};
+  Input<field::Temperature> temperature_{-1};
+};
+
+}  // namespace krater::inline KRATER_ISA

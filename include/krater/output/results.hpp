@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file output/results.hpp
+/// What a run hands to the writers: plain arrays, no knowledge of blocks or lanes. Written by
+/// src/output (the only HDF5 in the program). Files appear complete or not at all: they are built
+/// in memory, written beside (`NAME.part`) and renamed, so a killed run leaves everything it wrote
+/// before readable. Peak memory is twice the data of the file being written. The layout of the
+/// files is in src/output/README.md. Not thread-safe: one thread writes.
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace krater {
+
+/// Results could not be written in mid-run (disk full, folder removed, ...); the text names the
+/// file and the reason. A folder that cannot be created is an InputError: the user chose its place.
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One field of one body, points in order of their id. `components` values per point, point-major,
+/// stored as they come: vectors should have three components in every frame of reference (ParaView
+/// draws no others), symmetric tensors xx yy zz yz xz xy.
+struct FieldArray {
+  std::string name, unit, meaning;
+  int components = 1;
+  std::vector<std::string> component_names;  ///< e.g. r z | xx yy zz yz xz xy; empty for scalars
+  std::vector<double> values;
+};
+
+struct BodyFrame {
+  std::string body;
+  std::vector<std::int64_t> ids;
+  std::vector<double>
+      coordinates;  ///< 3 per point (x, y, z); axisymmetric (r, 0, z), plane strain (x, 0, z)
+  std::vector<FieldArray> fields;
+};
+
+struct OutputFrame {
+  int number = 0;
+  double time = 0;  ///< [s]
+  std::int64_t step = 0;
+  std::vector<BodyFrame> bodies;
+};
+
+/// A named scalar with unit, e.g. a history column or an entry of the audit.
+struct Quantity {
+  std::string name, unit;
+  double value = 0;
+};
+
+/// Everything needed to continue with the same bits: named blobs, written and read verbatim (NaN
+/// payloads, -0.0 and denormals included). At most one of the three arrays is filled.
+struct CheckpointBlob {
+  std::string name;                    ///< unique; '/' makes groups in the file
+  std::vector<std::uint64_t> shape;    ///< empty: one-dimensional
+  std::vector<double> doubles;         ///< either doubles ...
+  std::vector<std::int64_t> integers;  ///< ... or integers
+  std::string text;                    ///< ... or text (bytes, no shape)
+};
+struct Checkpoint {
+  std::vector<CheckpointBlob> blobs;
+  const CheckpointBlob* find(const std::string& name) const;  ///< null when there is none
+};
+
+/// A value of summary.json: nested objects of numbers and strings.
+struct Json {
+  enum class Kind { object, array, number, integer, text, boolean, null } kind = Kind::object;
+  std::vector<std::string> keys;  ///< object: of the items, in the order of their creation
+  std::vector<Json> items;        ///< object, array
+  double number = 0;
+  std::int64_t integer = 0;
+  std::string text;
+  bool flag = false;
+  static Json of(double x);
+  static Json of(bool b);
+  static Json of(std::string s);
+  static Json of(const char* s);  ///< without it a literal would become a boolean
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) static Json of(T i) {
+    return of_integer(static_cast<std::int64_t>(i));
+  }
+  static Json array();
+  static Json null();
+  Json& operator[](const std::string& key);  ///< object member, created when missing, order kept
+ private:
+  static Json of_integer(std::int64_t i);
+};
+
+using TextAttributes = std::vector<std::pair<std::string, std::string>>;
+
+/// Folder of one run: created when the first file is written, so that a scene with errors leaves
+/// nothing behind. Into a folder of an earlier run: a fresh run first removes that run's files
+/// (frames, history, checkpoint, summary) and nothing else; a resumed run keeps them (see
+/// `truncate_after`).
+class ResultsFolder {
+ public:
+  explicit ResultsFolder(std::string path, bool resume = false);
+  ~ResultsFolder();  ///< flushes; call flush() before to see its errors
+  ResultsFolder(const ResultsFolder&) = delete;
+  ResultsFolder& operator=(const ResultsFolder&) = delete;
+
+  const std::string& path() const;
+  /// Root attributes (program, version, frame of reference, ...) of the HDF5 files written from now
+  /// on.
+  void set_attributes(TextAttributes attributes);
+  /// After a restart: drops frames and rows of the history later than `time` [s].
+  void truncate_after(double time);
+  void write_frame(const OutputFrame& frame);  ///< frames/NNNNNN.h5, frames.h5, frames.xmf
+  void write_history(
+      const std::vector<Quantity>& row);  ///< a line of history.csv; the first column is time
+  void write_checkpoint(const Checkpoint& checkpoint);                ///< checkpoint.h5
+  void write_summary(const Json& summary);                            ///< summary.json
+  void write_text(const std::string& name, const std::string& text);  ///< resolved.yaml, log.txt
+  void flush();  ///< history.h5 catches up with history.csv
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+Checkpoint read_checkpoint(
+    const std::string& file);           ///< throws InputError when unreadable or not ours
+std::string to_text(const Json& json);  ///< indented JSON, non-finite numbers as null
+
+}  // namespace krater

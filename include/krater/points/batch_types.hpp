@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file points/batch_types.hpp
+/// Plain data of a batch, the same for every instruction-set level (views over it: batch.hpp).
+
+namespace krater {
+
+/// What went wrong first in a batch; the app turns it into a NumericalError that names body, point and position.
+enum class FaultKind : int { none = 0, not_finite_input, not_finite_velocity, inverted, not_finite_state, no_convergence, moved_too_far };
+struct Fault {
+  FaultKind kind = FaultKind::none;
+  int group = 0;       ///< lane group in the patch
+  unsigned lanes = 0;  ///< offending lanes, bit i = lane i
+};
+
+/// Sums and events of one patch in one sweep; summed over patches in patch order.
+struct Ledger {
+  double plastic_work = 0;    ///< [J]
+  double viscous_work = 0;    ///< [J]
+  double plastic_heating = 0; ///< [J] part of plastic work booked as temperature
+  double sound_speed_floors = 0, hugoniot_poles = 0, unconverged = 0;  ///< events counted
+};
+
+/// State and local records of consecutive lane groups, all in doubles.
+struct BatchData {
+  double* state;        ///< first group's state record
+  int state_stride;     ///< doubles
+  double* local;        ///< first group's local record
+  int local_stride;     ///< doubles
+  const double* zeros;  ///< at least 9 packs of zeros, 64-byte aligned
+  int groups;           ///< number of lane groups
+  int count;            ///< number of points; lanes past it in the last group are padding with mass 0
+  int first_group;      ///< index of the first group in the patch, for faults
+  double dt;            ///< [s]
+  double length;        ///< cell size h [m], for viscosity
+  Ledger* ledger;
+  Fault* fault;
+};
+
+}  // namespace krater

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file scene/scene.hpp
+/// A scene as plain data: every key checked, every value in SI, every default filled in. Absence of
+/// an optional block means: that effect is not simulated. `where` strings ("taylor.yaml:12:
+/// bodies.rod") serve later errors.
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "krater/geometry/frame.hpp"
+#include "krater/geometry/lattice.hpp"
+#include "krater/geometry/solid.hpp"
+#include "krater/step/options.hpp"
+
+namespace krater {
+
+struct GridOptions {
+  double cell = 0;                                  ///< h [m]
+  Triple min{}, max{};                              ///< domain [m]
+  std::array<std::array<Boundary, 2>, 3> boundary;  ///< [axis][0 lower, 1 upper]
+};
+
+struct TimeOptions {
+  double end = 0;  ///< [s]
+  double cfl = 0.5;
+  double max_step = 0;    ///< [s], 0: none
+  double min_step = 0;    ///< [s], 0: 1e-6 of the first step
+  double first_step = 0;  ///< [s], 0: automatic
+};
+
+/// A law named in the scene with its parameters in declared order.
+struct LawChoice {
+  int law = -1;  ///< index in catalogue()
+  std::string name, where;
+  std::vector<double> values;
+};
+
+struct MaterialOptions {
+  std::string name, where;
+  double density = 0, shear_modulus = 0, initial_temperature = 293;
+  std::optional<LawChoice> eos, strength, viscosity, heating;  ///< absent: no such stage
+};
+
+/// A vector field given by expressions in x y z r t (and X Y Z R: position at the start), or
+/// constants.
+class FieldFunction {
+ public:
+  virtual ~FieldFunction() = default;
+  virtual bool depends_on_time() const = 0;
+  /// x: current, X: initial position along grid axes; result along grid axes.
+  virtual Triple operator()(const Triple& x, const Triple& X, double t) const = 0;
+};
+
+struct BodyOptions {
+  std::string name, where;
+  int material = -1;  ///< index in Scene::materials
+  std::shared_ptr<const Solid> solid;
+  std::shared_ptr<const FieldFunction> velocity;  ///< initial velocity; null: at rest
+};
+
+enum class MeasureKind { extent, max, min, diameter, mean_velocity, mean, maximum };
+struct MeasureOptions {
+  std::string name, where;
+  MeasureKind kind = MeasureKind::extent;
+  int body = -1;
+  int axis = -1;             ///< extent, max, min, mean_velocity: grid axis
+  double at = 0;             ///< diameter: position on the last axis [m] ...
+  bool at_from_end = false;  ///< ... counted from the body's lower end at the time of measuring
+  std::string field;         ///< mean, maximum: field name
+  std::optional<double> reference;  ///< SI
+  std::string reference_source;
+};
+
+struct OutputOptions {
+  double frames = 0;   ///< [s] between frames, 0: first and last only
+  double history = 0;  ///< [s] between history rows, 0: every step
+  double checkpoint_wall =
+      600;  ///< [s] of wall clock between checkpoints, 0: only at the end or on a signal
+  std::vector<std::string> fields;  ///< extra fields asked for: names of points/fields.hpp
+  std::string where;                ///< of `fields`
+};
+
+struct Scene {
+  std::string file, title, resolved;  ///< resolved: YAML text with all defaults, for resolved.yaml
+  Frame frame = Frame::cartesian_3d;
+  GridOptions grid;
+  TimeOptions time;
+  MethodOptions method;
+  std::vector<MaterialOptions> materials;
+  std::vector<BodyOptions> bodies;
+  std::shared_ptr<const FieldFunction> body_force;  ///< acceleration [m/s^2]; null: none
+  std::vector<MeasureOptions> measures;
+  OutputOptions output;
+  std::vector<std::string> notes;  ///< remarks for the user (r_min: axis ignored in 3d, ...)
+};
+
+/// Read and check a scene. `overrides`: "path=value" strings of --set. Throws InputError
+/// (`FILE:LINE: path: ...`).
+Scene read_scene(const std::string& file, const std::vector<std::string>& overrides = {});
+
+}  // namespace krater

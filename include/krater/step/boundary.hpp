@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file step/boundary.hpp
+/// Domain planes. Each lies on a line of nodes; points beyond half a cell of it also see one ghost node outside.
+/// - symmetry (and the axis r = 0), sticky: the ghost's sums are folded onto its mirror node before the momentum
+///   update, normal components odd, tangential even (sticky: all odd), the plane's own odd components vanish. This is
+///   the shape function S(x - x_i) +- S(x + x_i): exact for every shape, no special knots (numerics A1).
+/// - wall: unilateral. After the momentum update a column (ghost, plane, inner node) is in contact if the wall would
+///   push, J = -(2 m_g v_g + m_0 v_0).n > 0, and material touches the plane, 2 V_0 > (1 - tol)(V_1 + V_g): the volume
+///   criterion of numerics A10 against the column's own fill, so that it also holds at the rim of a foot. Then the
+///   column is folded as above with Coulomb friction |J_t| <= mu J_n; otherwise it is left alone and the body flies off.
+/// - velocity: plane and ghost nodes move as prescribed.
+/// - open: nothing; points that leave are removed and accounted.
+#include <array>
+#include <vector>
+
+#include "krater/grid/blocks.hpp"
+#include "krater/step/options.hpp"
+
+namespace krater {
+
+using BoundaryConditions = std::array<std::array<Boundary, 2>, 3>;  ///< [axis][0 lower, 1 upper]
+
+/// What the planes did in one step.
+struct BoundaryWork {
+  double work = 0;                     ///< change of the grid's kinetic energy [J]
+  double force_correction = 0;         ///< change of the work of the nodal forces, part of `work` [J]
+  std::array<double, 3> impulse{};     ///< on the points [N s]
+  int columns_in_contact = 0;
+};
+
+class BoundarySet {
+ public:
+  BoundarySet(const GridGeometry& geometry, const BoundaryConditions& conditions)
+      : geometry_{geometry}, conditions_{conditions} {}
+
+  const BoundaryConditions& conditions() const { return conditions_; }
+  /// Find the columns of nodes at each plane and mark their blocks; call after BlockGrid::rebuild().
+  void relink(BlockGrid& grid);
+  /// symmetry, sticky: fold sums [m, p, f, V]; before the momentum update.
+  void fold() const;
+  /// wall, velocity: change v+ and dv of [v+, m, dv, V]; after the momentum update.
+  BoundaryWork constrain() const;
+  /// Give ghosts the mirrored values the gather reads.
+  void mirror() const;
+  bool is_open(int axis, int side) const {
+    return conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)].kind == BoundaryKind::open;
+  }
+
+ private:
+  struct Column {
+    double *ghost, *plane, *inner;
+  };
+  struct Plane {
+    int axis;
+    double inward;  ///< +1 lower, -1 upper
+    const Boundary* condition;
+    std::vector<Column> columns;
+  };
+  void add_columns(BlockGrid& grid, Plane& plane, int side) const;
+  void constrain_wall(const Plane& plane, const Column& column, BoundaryWork& sum) const;
+  void constrain_velocity(const Plane& plane, const Column& column, BoundaryWork& sum) const;
+
+  GridGeometry geometry_;
+  BoundaryConditions conditions_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace krater

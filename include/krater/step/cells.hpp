@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file step/cells.hpp
+/// Cell averages against volumetric locking (numerics A5). Over the points of a cell (their common base node):
+///   tr_c = sum V tr L / sum V,  P_c = sum V (p + q) / sum V,
+/// the stress update sees tr L + beta (tr_c - tr L), the force sees (1 - beta)(p + q) + beta P_c. One beta for both
+/// keeps the internal force and the dilatation adjoint, so the averages do no work. beta fades from 1 to 0 where the
+/// last update saw |tr D| h / c between 0.001 and 0.005: in shocks the averages would smear.
+#include "krater/step/weights.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+inline constexpr double kShockOn = 0.005, kShockOff = 0.001;
+
+/// Sums of the 64 cells of a block; `value` holds V times the averaged quantity, then the average.
+struct CellSums {
+  double* volume;
+  double* value;
+  KRATER_FORCE_INLINE void clear() const {
+    for (int c = 0; c < kBlockNodes; c += kLanes) store(volume + c, Pack(0.0)), store(value + c, Pack(0.0));
+  }
+  KRATER_FORCE_INLINE void add(const double* cells, Pack V, Pack quantity) const {
+    alignas(64) double v[8], vq[8];
+    store(v, V), store(vq, V * quantity);
+    for (int l = 0; l < kLanes; ++l) {
+      const int c = static_cast<int>(cells[l]);
+      volume[c] += v[l];
+      value[c] += vq[l];
+    }
+  }
+  KRATER_FORCE_INLINE void divide() const {
+    for (int c = 0; c < kBlockNodes; c += kLanes) {
+      const Pack V = load(volume + c);
+      store(value + c, select(V > Pack(0.0), load(value + c) / V, Pack(0.0)));
+    }
+  }
+};
+
+/// Table look-up per lane.
+KRATER_FORCE_INLINE Pack look_up(const double* table, const double* cells) {
+  alignas(64) double out[8];
+  for (int l = 0; l < kLanes; ++l) out[l] = table[static_cast<int>(cells[l])];
+  return load(out);
+}
+
+/// beta per cell from the shock indicators of its points.
+template <int Dim>
+KRATER_FORCE_INLINE void shock_switch(const Patch& patch, const GridGeometry& grid, ReadView x, ReadView indicator,
+                                      double* cells, double* beta) {
+  const PatchOrigin origin = origin_of<Dim>(patch);
+  for (int c = 0; c < kBlockNodes; c += kLanes) store(beta + c, Pack(0.0));
+  for (int g = 0; g < patch.groups(); ++g) {
+    double* here = cells + kLanes * g;
+    store(here, cell_index<Dim>(grid, origin, x, g));
+    alignas(64) double shock[8];
+    store(shock, indicator(g));
+    for (int l = 0; l < kLanes; ++l) {
+      double& b = beta[static_cast<int>(here[l])];
+      b = shock[l] > b ? shock[l] : b;
+    }
+  }
+  for (int c = 0; c < kBlockNodes; c += kLanes)
+    store(beta + c, clamp((kShockOn - load(beta + c)) * (1 / (kShockOn - kShockOff)), Pack(0.0), Pack(1.0)));
+}
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file step/kernels.hpp
+/// The hot loops of the step behind one virtual call per block. An implementation exists for each frame, shape and
+/// instruction-set level (src/step/kernels_*_hot.cpp); everything that crosses this line is plain data.
+///
+/// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the momentum update:
+/// [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-. Two-dimensional frames leave index 2 unused.
+#include "krater/grid/blocks.hpp"
+#include "krater/materials/stage.hpp"
+
+namespace krater {
+
+/// Where the method finds its columns: offsets in the state record, -1 where a column does not exist.
+struct PointColumns {
+  int stride = 0, local_stride = 0;
+  int position = -1, velocity = -1, mass = -1, density = -1;
+  int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
+  int indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
+  int local_gradient = -1, local_dilatation = -1, local_signal = -1, local_rate = -1;  ///< local record
+};
+
+/// One body as the kernels see it.
+struct BodyKernelData {
+  PointColumns columns;
+  const Stage* const* stages = nullptr;
+  int stage_count = 0;
+};
+
+/// What all blocks of a sweep share.
+struct SweepSettings {
+  const GridGeometry* geometry = nullptr;
+  double dt = 0;
+  double alpha = 1, alpha_shock = 1;  ///< share of the old velocity residual kept: FLIP 1, APIC 0
+  bool average_cells = false;         ///< numerics A5
+  bool shock_switch = false;          ///< compute beta (averaging, or alpha differs in shocks)
+};
+
+/// Memory of one thread.
+struct SweepScratch {
+  double* halo;           ///< tile_nodes * kNodeDoubles
+  double* local;          ///< groups of a patch * local stride
+  double* cells;          ///< 4 * kBlockNodes
+  double* pressures;      ///< 8 per group: pressure of the force
+  unsigned char* leavers; ///< 1 per group: lanes that left the block or the domain
+  const double* zeros;
+};
+
+/// Which parts of grid_to_particles run; usl does all at once, musl and usf in two passes.
+enum class GatherPart : int {
+  all,            ///< usl: velocity, position, stress
+  velocity_only,  ///< musl, first pass: velocity; interpolated grid velocity kept for the move
+  strain_move,    ///< musl, second pass: stress, then move with the kept velocity
+  strain_only,    ///< usf, first pass: stress
+  velocity_move,  ///< usf, second pass: velocity and position
+  keep_only,      ///< xpic: interpolated grid velocity kept, nothing else
+  filter_move,    ///< xpic: velocity from the filtered grid velocity, mean-velocity move, stress
+};
+
+class Kernels {
+ public:
+  Kernels() = default;
+  Kernels(const Kernels&) = delete;
+  Kernels& operator=(const Kernels&) = delete;
+  virtual ~Kernels();
+  /// m_i, p_i, f_i, V_i of one patch into its tile; also its cells' beta.
+  virtual void scatter(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w) const = 0;
+  /// Sum the tiles over one node block.
+  virtual void sum_tiles(const BlockGrid& grid, NodeBlock& block) const = 0;
+  /// v- = p/m, dv = dt_force f/m, v+ = v- + dv, and the sums of the audit.
+  virtual void momentum(NodeBlock& block, double dt_force, double smallest_mass, double cell_volume) const = 0;
+  /// Velocities, positions, stresses of one patch from the nodes.
+  virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body, const SweepSettings& s,
+                      const SweepScratch& w, GatherPart part) const = 0;
+};
+
+enum class KernelShape : int { quadratic_bspline, gimp, linear };
+enum class KernelFrame : int { axisymmetric, plane, space };
+
+/// `affine`: momentum carries L (TFLIP, APIC). Ownership passes to the caller; nullptr never.
+struct KernelFactory {
+  Kernels* (*make)(KernelFrame frame, KernelShape shape, bool affine);
+};
+
+}  // namespace krater

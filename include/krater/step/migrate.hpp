@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file step/migrate.hpp
+/// Points that left their block move to the neighbour, the others stay where they are: a full sort would cost as
+/// much as a step (numerics C2). Order is fixed: holes are filled from the end of the patch, arrivals are appended by
+/// neighbour (lexicographic), then by their old index; so the bits do not depend on threads.
+#include <array>
+
+#include "krater/step/boundary.hpp"
+#include "krater/step/kernels.hpp"
+
+namespace krater {
+
+/// Points taken out of the computation through an open side of the domain.
+struct Removed {
+  double count = 0, mass = 0, kinetic = 0, internal = 0;
+  std::array<double, 3> momentum{};
+  double reflections = 0;  ///< points put back at a closed side (round-off)
+};
+
+/// Move leaving points of one patch into its outbox, or out of the computation. `leavers`: lane mask per group.
+Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+                        const PointColumns& columns, const unsigned char* leavers);
+
+/// Hand the outboxes over; makes and drops patches as needed. Returns true when the topology changed (relink!).
+bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
+
+/// Make the padding lanes of the last group copies of the last point with mass 0.
+void pad(Patch& patch, int stride, int mass_offset);
+
+/// Append one point given as stride/8 doubles; grows the patch. Call pad() afterwards.
+void append(Patch& patch, const double* point, int stride);
+
+/// Kinetic energy of point `i` of a patch, affine part included (second moment h^2/4) [J].
+double point_kinetic(const Patch& patch, int i, const PointColumns& columns, const GridGeometry& geometry);
+
+}  // namespace krater

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file step/mpm_step.hpp
+/// One time step of the Material Point Method (theory 2-4, 11, 12):
+///   particles_to_grid -> fold symmetry planes -> momentum -> walls -> grid_to_particles (+ stresses) -> migrate.
+/// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from the projection.
+/// usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/step/audit.hpp"
+#include "krater/step/boundary.hpp"
+#include "krater/step/kernels.hpp"
+#include "krater/step/migrate.hpp"
+
+namespace krater {
+
+/// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
+struct StepFault {
+  int patch;
+  Fault fault;
+};
+
+class MpmStep {
+ public:
+  /// All references must outlive the step. `bodies[b]` belongs to patches with body == b.
+  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, const Kernels& kernels,
+          const std::vector<BodyKernelData>& bodies);
+
+  /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would move material by more
+  /// than 0.3 cells (checked on the nodes, before a point is touched). Returns the step taken. Throws StepFault.
+  double advance(double dt);
+
+  Audit& audit() { return audit_; }
+  const Audit& audit() const { return audit_; }
+  double max_rate() const { return max_rate_; }  ///< 1/dt at CFL 1 found by the last step [1/s]
+  int limiting_patch() const { return limiting_patch_; }
+  /// Call after points were added or read from a checkpoint: links, memory, padding.
+  void relink();
+  /// Smallest mass of a point, once for all [kg].
+  void set_smallest_mass(double m) { smallest_mass_ = 1e-12 * m; }
+
+ private:
+  struct GridEnergy {
+    double before, after;
+  };
+  void particles_to_grid(const std::vector<BodyKernelData>& bodies, double dt);
+  GridEnergy momentum(double& dt, double force_share);
+  void halve_until_safe(double& dt, double max_change);
+  void filter_velocity();
+  void grid_to_particles(GatherPart part, double dt);
+  void combine_patches(bool forces_worked);
+  void provide_memory();
+  void throw_faults() const;
+  void migrate();
+  SweepSettings settings(double dt) const;
+  SweepScratch scratch();
+
+  double step_usl(double dt);
+  double step_musl(double dt);
+  double step_usf(double dt);
+
+  MethodOptions method_;
+  BlockGrid& grid_;
+  BoundarySet& boundary_;
+  const Kernels& kernels_;
+  const std::vector<BodyKernelData>& bodies_;
+  std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
+  Audit audit_;
+  double smallest_mass_ = 0;
+  double max_rate_ = 0;
+  int limiting_patch_ = -1;
+  double cell_volume_ = 1;
+  AlignedBuffer zeros_, filtered_;
+  std::vector<Removed> removed_;
+  struct ThreadMemory {
+    AlignedBuffer halo, local, cells, pressures;
+    std::vector<unsigned char> leavers;
+  };
+  std::vector<ThreadMemory> memory_;
+};
+
+}  // namespace krater

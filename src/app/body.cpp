@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/app/body.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "krater/core/errors.hpp"
+#include "krater/materials/catalogue.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr const char* kMethod = "method";
+
+bool carries_affine(Transfer t) { return t == Transfer::tflip || t == Transfer::apic; }
+
+bool wants(const Scene& scene, const FieldInfo& field) {
+  for (const std::string& name : scene.output.fields)
+    if (name == field.name) return true;
+  return false;
+}
+
+}  // namespace
+
+Box domain_box(const Scene& scene) { return {scene.grid.min, scene.grid.max}; }
+
+Body::Body(const Scene& scene, int index, const StageFactory& factory)
+    : options_{&scene.bodies.at(static_cast<std::size_t>(index))},
+      material_{&scene.materials.at(static_cast<std::size_t>(options_->material))},
+      layout_{dimension(scene.frame)} {
+  declare_method_columns(scene);
+  add_stages(factory);
+  layout_.local_input<field::SignalSpeed>(kMethod);
+  layout_.local_input<field::DilatationRate>(kMethod);
+  layout_.check();
+  const Column* c = layout_.find(field::SoundSpeed::info.name);
+  const double bulk = c == nullptr ? 0 : c->initial;
+  sound_speed_ = std::sqrt(bulk * bulk + 4.0 / 3.0 * material_->shear_modulus / material_->density);
+}
+
+void Body::declare_method_columns(const Scene& scene) {
+  layout_.state<field::Id>(0, kMethod);
+  layout_.state<field::Position>(0, kMethod);
+  layout_.state<field::Velocity>(0, kMethod);
+  layout_.state<field::Mass>(0, kMethod);
+  layout_.state<field::Density>(material_->density, kMethod);
+  const MethodOptions& m = scene.method;
+  if (carries_affine(m.transfer)) layout_.state<field::AffineVelocity>(0, kMethod);
+  if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
+  if (m.update == Update::musl || m.transfer == Transfer::xpic) layout_.state<field::GridVelocity>(0, kMethod);
+  const bool switched = m.cell_averaging || (m.transfer == Transfer::tflip && m.flip_fraction != m.flip_fraction_shock);
+  if (switched) layout_.state<field::ShockIndicator>(0, kMethod);
+  if (scene.body_force) {
+    layout_.state<field::BodyAcceleration>(0, kMethod);
+    layout_.state<field::ReferencePosition>(0, kMethod);
+  } else if (wants(scene, field::ReferencePosition::info)) {
+    layout_.state<field::ReferencePosition>(0, kMethod);
+  }
+  if (wants(scene, field::DeformationGradient::info)) layout_.state<field::DeformationGradient>(0, kMethod);
+  layout_.local_output<field::StepGradient>(kMethod);
+  layout_.local_output<field::ExtraDilatation>(kMethod);
+}
+
+void Body::add(std::string name, Stage* stage) {
+  if (stage == nullptr) throw std::logic_error("no stage was made for " + name);
+  stages_.push_back({std::move(name), std::unique_ptr<const Stage>{stage}});
+  stage_pointers_.push_back(stage);
+}
+
+void Body::add_stages(const StageFactory& factory) {
+  const MaterialConstants constants{material_->density, material_->shear_modulus, material_->initial_temperature};
+  const auto add_law = [&](const std::optional<LawChoice>& choice, const char* family) {
+    if (choice) add(std::string{family} + ": " + choice->name, factory.make(choice->law, choice->values.data(), constants, layout_));
+  };
+  const bool hyperelastic = material_->strength && catalogue()[static_cast<std::size_t>(material_->strength->law)].whole_stress;
+  // A law that needs F must have declared it before the kinematics stage looks for it.
+  if (hyperelastic) layout_.state<field::DeformationGradient>(0, kMethod);
+  add("kinematics", factory.kinematics(layout_));
+  add_law(material_->viscosity, "viscosity");
+  add_law(material_->strength, "strength");
+  add_law(material_->eos, "eos");
+  add_law(material_->heating, "heating");
+  if (material_->viscosity) q_lin_ = material_->viscosity->values.at(0), q_quad_ = material_->viscosity->values.at(1);
+  add("signal speed", factory.signal_speed(q_lin_, q_quad_, layout_));
+}
+
+BodyKernelData Body::kernel_data() const {
+  const auto state = [this](const FieldInfo& f) {
+    const Column* c = layout_.find(f.name);
+    return c == nullptr ? -1 : c->offset;
+  };
+  const auto local = [this](const FieldInfo& f) {
+    for (const Column& c : layout_.locals())
+      if (std::string_view{c.field->name} == f.name) return c.offset;
+    return -1;
+  };
+  BodyKernelData data;
+  PointColumns& c = data.columns;
+  c.stride = layout_.stride();
+  c.local_stride = layout_.local_stride();
+  c.position = state(field::Position::info), c.velocity = state(field::Velocity::info);
+  c.mass = state(field::Mass::info), c.density = state(field::Density::info);
+  c.affine = state(field::AffineVelocity::info), c.stress = state(field::DeviatoricStress::info);
+  c.pressure = state(field::Pressure::info), c.viscous = state(field::ViscousPressure::info);
+  c.energy = state(field::InternalEnergy::info), c.sound_speed = state(field::SoundSpeed::info);
+  c.indicator = state(field::ShockIndicator::info), c.half_width = state(field::HalfWidth::info);
+  c.body_acceleration = state(field::BodyAcceleration::info), c.grid_velocity = state(field::GridVelocity::info);
+  c.local_gradient = local(field::StepGradient::info), c.local_dilatation = local(field::ExtraDilatation::info);
+  c.local_signal = local(field::SignalSpeed::info), c.local_rate = local(field::DilatationRate::info);
+  data.stages = stage_pointers_.data();
+  data.stage_count = static_cast<int>(stage_pointers_.size());
+  return data;
+}
+
+int Body::slot(const FieldInfo& field, int component) const {
+  const Column* c = layout_.find(field.name);
+  return c == nullptr ? -1 : c->offset / kLanes + component;
+}
+
+std::vector<SeedPoint> Body::seeds(const Scene& scene) {
+  LatticeOptions lattice;
+  lattice.cell = scene.grid.cell;
+  lattice.points_per_direction = scene.method.points_per_direction;
+  lattice.origin = scene.grid.min;
+  lattice.stagger = scene.method.stagger;
+  lattice.jitter = scene.method.jitter;
+  lattice.seed = scene.method.seed;
+  std::vector<SeedPoint> out;
+  try {
+    out = fill(*options_->solid, scene.frame, lattice, domain_box(scene), &fill_);
+  } catch (const std::invalid_argument& e) {
+    throw InputError(options_->where + ": " + e.what());
+  }
+  if (out.empty()) throw InputError(options_->where + ": no part of this body lies inside the grid's box; move the body or enlarge grid.box");
+  return out;
+}
+
+void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id, std::vector<double>& record) const {
+  const int dim = dimension(scene.frame);
+  record.assign(static_cast<std::size_t>(layout_.stride() / kLanes), 0.0);
+  for (const Column& c : layout_.columns())
+    for (int k = 0; k < c.components; ++k) record[static_cast<std::size_t>(c.offset / kLanes + k)] = c.initial;
+  const auto set = [&](const FieldInfo& field, int component, double value) {
+    const int at = slot(field, component);
+    if (at >= 0) record[static_cast<std::size_t>(at)] = value;
+  };
+  set(field::Id::info, 0, static_cast<double>(id));
+  set(field::Mass::info, 0, material_->density * seed.measure);
+  const Triple velocity = options_->velocity ? (*options_->velocity)(seed.x, seed.x, 0) : Triple{};
+  for (int a = 0; a < dim; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    set(field::Position::info, a, seed.x[i]);
+    set(field::ReferencePosition::info, a, seed.x[i]);
+    set(field::Velocity::info, a, velocity[i]);
+    set(field::HalfWidth::info, a, seed.half_width[i]);
+  }
+  for (int k = 0; k < 9; k += 4) set(field::DeformationGradient::info, k, 1.0);
+}
+
+}  // namespace krater

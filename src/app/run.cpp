@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/app/run.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <limits>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "krater/app/progress.hpp"
+#include "krater/app/snapshot.hpp"
+#include "krater/app/version.hpp"
+#include "krater/core/errors.hpp"
+#include "krater/core/parallel.hpp"
+
+namespace krater {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void on_signal(int) { interrupted = 1; }
+
+std::string default_output(const std::string& scene) { return std::filesystem::path(scene).stem().string() + "_out"; }
+
+/// Times of the next outputs; survives a restart because it depends on the time reached only.
+class Schedule {
+ public:
+  Schedule(double interval, double now) : interval_{interval} { advance(now); }
+  double next() const { return next_; }
+  bool due(double now) const { return interval_ > 0 && now >= next_; }
+  void advance(double now) {
+    if (interval_ <= 0) return;
+    auto k = static_cast<std::int64_t>(now / interval_ * (1 + 1e-12));
+    next_ = static_cast<double>(k + 1) * interval_;
+    while (next_ <= now * (1 + 1e-14)) next_ = static_cast<double>(++k + 1) * interval_;
+  }
+
+ private:
+  double interval_, next_ = std::numeric_limits<double>::infinity();
+};
+
+class Runner {
+ public:
+  Runner(const RunOptions& options, Scene scene)
+      : options_{options},
+        scene_{std::move(scene)},
+        sim_{scene_},
+        results_{options.output.empty() ? default_output(options.scene) : options.output, !options.restart.empty()} {}
+
+  int go();
+
+ private:
+  void begin();
+  void write_history();
+  void write_frame();
+  Json summary(const std::string& status, double seconds) const;
+  int finish(const std::string& status, const std::string& message, int code, const Progress& progress);
+
+  RunOptions options_;
+  Scene scene_;
+  Simulation sim_;
+  ResultsFolder results_;
+  int frame_ = 0;
+  std::int64_t first_step_ = 0;
+  double worst_error_ = 0;
+};
+
+void Runner::begin() {
+  const Version v = version();
+  results_.set_attributes({{"program", "krater " + v.program},
+                           {"revision", v.revision},
+                           {"title", scene_.title},
+                           {"frame", std::string{name(scene_.frame)}},
+                           {"cell", fmt::format("{:.17g} m", scene_.grid.cell)}});
+  if (options_.restart.empty()) {
+    results_.write_text("resolved.yaml", scene_.resolved);
+    write_frame();
+    write_history();
+    return;
+  }
+  const Checkpoint checkpoint = read_checkpoint(options_.restart);
+  const CheckpointBlob* text = checkpoint.find("scene");
+  if (text != nullptr && text->text != scene_.resolved)
+    fmt::print(stderr, "krater: note: the scene differs from the one the checkpoint was written with\n");
+  sim_.restore(checkpoint);
+  const CheckpointBlob* counters = checkpoint.find("output");
+  if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
+  first_step_ = sim_.steps();
+  results_.truncate_after(sim_.time());
+}
+
+void Runner::write_history() { results_.write_history(history_row(sim_, evaluate_measures(sim_))); }
+
+void Runner::write_frame() {
+  results_.write_frame(make_frame(sim_, frame_));
+  ++frame_;
+}
+
+int Runner::go() {
+  begin();
+  Progress progress{sim_, options_.quiet};
+  Schedule frames{scene_.output.frames, sim_.time()}, history{scene_.output.history, sim_.time()};
+  double last_checkpoint = 0;
+  const auto checkpoint = [&] {
+    Checkpoint c = sim_.save();
+    c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
+    c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
+    results_.write_checkpoint(c);
+    last_checkpoint = progress.seconds();
+  };
+  const auto save_state = [&] {
+    write_history();
+    checkpoint();
+  };
+  try {
+    while (!sim_.done()) {
+      if (interrupted != 0) {
+        save_state();
+        progress.finish();
+        return finish("interrupted", "interrupted: checkpoint written, continue with --restart " + results_.path() + "/checkpoint.h5",
+                      kInterrupted, progress);
+      }
+      sim_.step(std::min(frames.next(), scene_.time.end));
+      if (history.due(sim_.time()) || scene_.output.history <= 0 || sim_.done()) write_history(), history.advance(sim_.time());
+      if (frames.due(sim_.time()) || sim_.done()) write_frame(), frames.advance(sim_.time());
+      if (scene_.output.checkpoint_wall > 0 && progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall) checkpoint();
+      progress.show();
+    }
+  } catch (const NumericalError& e) {
+    progress.finish();
+    write_frame();  // the state as it was when the step broke, for a look
+    save_state();
+    return finish("failed", e.what(), kNumericalFailure, progress);
+  }
+  checkpoint();
+  progress.finish();
+  return finish("done", "", kDone, progress);
+}
+
+Json Runner::summary(const std::string& status, double seconds) const {
+  const Version v = version();
+  Json j;
+  j["title"] = Json::of(scene_.title);
+  j["status"] = Json::of(status);
+  j["frame"] = Json::of(std::string{name(scene_.frame)});
+  j["cell"] = Json::of(scene_.grid.cell);
+  j["time"] = Json::of(sim_.time());
+  j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
+  j["steps"] = Json::of(sim_.steps());
+  j["bytes_per_point"] = Json::of(sim_.bytes_per_point());
+  j["measures"] = measures_json(sim_, evaluate_measures(sim_));
+  j["audit"] = audit_json(sim_);
+  // Machine and clock: everything above is the same for any number of threads, everything below is not.
+  Json& machine = j["machine"];
+  char host[256] = {};
+  gethostname(host, sizeof(host) - 1);
+  machine["host"] = Json::of(std::string{host});
+  machine["threads"] = Json::of(static_cast<std::int64_t>(threads()));
+  machine["instruction_set"] = Json::of(std::string{name_of(sim_.isa_level())});
+  machine["wall_seconds"] = Json::of(seconds);
+  const double work = static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
+  machine["point_steps_per_second"] = Json::of(seconds > 0 ? work / seconds : 0.0);
+  Json& program = j["program"];
+  program["version"] = Json::of(v.program);
+  program["revision"] = Json::of(v.revision);
+  program["compiler"] = Json::of(v.compiler);
+  program["build"] = Json::of(v.build);
+  return j;
+}
+
+int Runner::finish(const std::string& status, const std::string& message, int code, const Progress& progress) {
+  Json s = summary(status, progress.seconds());
+  if (!message.empty()) s["message"] = Json::of(message);
+  results_.write_summary(s);
+  results_.flush();
+  if (!message.empty()) fmt::print(stderr, "krater: {}\n", message);
+  if (!options_.quiet) fmt::print(stderr, "krater: {} after {} steps, results in {}\n", status, sim_.steps(), results_.path());
+  return code;
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  set_threads(options.threads);
+  flush_denormals();
+  Scene scene = read_scene(options.scene, options.overrides);
+  if (!options.quiet)
+    for (const std::string& note : scene.notes) fmt::print(stderr, "krater: note: {}\n", note);
+  Runner runner{options, std::move(scene)};
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  return runner.go();
+}
+
+}  // namespace krater

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/core/parallel.hpp"
+
+#include <omp.h>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace krater {
+
+namespace {
+int thread_count = 1;
+}
+
+int set_threads(int count) {
+  thread_count = count > 0 ? count : omp_get_max_threads();
+  return thread_count;
+}
+
+int threads() { return thread_count; }
+int thread_index() { return omp_get_thread_num(); }
+
+void flush_denormals() {
+#if defined(__SSE2__)
+  _mm_setcsr(_mm_getcsr() | 0x8040U);  // flush-to-zero and denormals-are-zero
+#elif defined(__aarch64__)
+  unsigned long fpcr;
+  asm volatile("mrs %0, fpcr" : "=r"(fpcr));
+  asm volatile("msr fpcr, %0" : : "r"(fpcr | (1UL << 24)));
+#endif
+}
+
+namespace detail {
+
+void for_each(std::size_t count, void (*call)(const void*, std::size_t), const void* context) {
+  const auto n = static_cast<long>(count);
+#pragma omp parallel num_threads(thread_count) if (thread_count > 1)
+  {
+    flush_denormals();
+#pragma omp for schedule(dynamic, 1)
+    for (long i = 0; i < n; ++i) call(context, static_cast<std::size_t>(i));
+  }
+}
+
+}  // namespace detail
+}  // namespace krater

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file output/checkpoint.hpp
+/// checkpoint.h5: every blob under /state, its order, shape and checksum beside it.
+#include <string>
+
+#include "krater/output/results.hpp"
+
+namespace krater::output {
+
+void save_checkpoint(const std::string& path, const Checkpoint& checkpoint,
+                     const TextAttributes& attributes);
+
+}  // namespace krater::output

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file output/hdf5_file.hpp
+/// The little of HDF5 that the program uses, with owners for its identifiers and exceptions for its
+/// errors. Files are built in memory and written by `replace_file`: HDF5 1.10 crashes, then or at
+/// exit, when a write to disk fails (tried with a limited file size), and a full disk must not end
+/// a run without its checkpoint. Not thread-safe, as the library.
+#include <hdf5.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "krater/output/results.hpp"
+
+namespace krater::output {
+
+using Shape = std::vector<std::uint64_t>;
+
+/// Owner of one HDF5 identifier.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept;
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle();
+  hid_t id() const { return id_; }
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+/// A file, group or dataset, open for reading or writing. Writing errors are OutputError, reading
+/// errors InputError; both name the file.
+class Node {
+ public:
+  enum class Mode { read, write };
+  Node(Handle handle, std::string file, Mode mode);
+
+  Node make_group(const std::string& name) const;
+  /// `values` may be null when the shape holds no element. Types: double, int64, unsigned char.
+  template <class T>
+  Node make_dataset(const std::string& name, const Shape& shape, const T* values) const;
+  void link_external(const std::string& name, const std::string& file,
+                     const std::string& path) const;
+  void set(const std::string& attribute, const std::string& text) const;
+  void set(const std::string& attribute, double value) const;
+  void set(const std::string& attribute, std::int64_t value) const;
+  void set(const std::string& attribute, const std::vector<std::string>& texts) const;
+  void set(const TextAttributes& attributes) const;
+
+  bool has_attribute(const std::string& name) const;
+  std::string text(const std::string& attribute) const;
+  double number(const std::string& attribute) const;
+  std::int64_t integer(const std::string& attribute) const;
+  std::vector<std::string> texts(const std::string& attribute) const;
+  Node open_dataset(const std::string& path) const;
+  Shape shape() const;
+  /// Whole dataset; refuses one stored as another type.
+  template <class T>
+  std::vector<T> read() const;
+
+  const std::string& file() const { return file_; }
+
+ protected:
+  /// Throws when `status` is negative: what was attempted, and why HDF5 says it failed.
+  void require(std::int64_t status, const std::string& attempt) const;
+  [[noreturn]] void fail(const std::string& problem) const;
+  Handle handle_;
+
+ private:
+  Handle write_attribute(const std::string& name, hid_t type, hid_t space, const void* data) const;
+  void read_attribute(const std::string& name, hid_t type, void* data) const;
+  std::string file_;
+  Mode mode_;
+};
+
+/// A file under construction in memory. Objects made in it may outlive it but no longer matter.
+class MemoryFile : public Node {
+ public:
+  explicit MemoryFile(const std::string& path);
+  void save();  ///< to its path, all or nothing
+};
+
+/// Opens a file for reading. Throws InputError: missing, unreadable, no HDF5 file, truncated.
+Node open_file(const std::string& path);
+
+}  // namespace krater::output

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/output/results.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "krater/core/errors.hpp"
+#include "output/atomic_file.hpp"
+#include "output/checkpoint.hpp"
+#include "output/frames.hpp"
+#include "output/history.hpp"
+
+namespace krater {
+
+namespace fs = std::filesystem;
+
+struct ResultsFolder::Impl {
+  Impl(std::string folder, bool continued)
+      : path(std::move(folder)), resume(continued), frames(path), history(path) {}
+
+  /// Before the first file is written: makes the folder, and clears or reads what an earlier run
+  /// left.
+  void prepare() {
+    if (ready) return;
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error || !fs::is_directory(path)) {
+      const std::string why = error ? error.message() : "not a folder";
+      throw InputError(path + ": results folder cannot be created: " + why);
+    }
+    if (resume) {
+      frames.load();
+      history.load();
+    } else {
+      frames.remove_all();
+      history.remove_all();
+      for (const char* name : {"checkpoint.h5", "summary.json"}) {
+        fs::remove(path + "/" + name, error);
+        fs::remove(path + "/" + name + output::kPartSuffix, error);
+      }
+    }
+    ready = true;
+  }
+
+  std::string path;
+  bool resume;
+  bool ready = false;
+  TextAttributes attributes;
+  output::FrameSeries frames;
+  output::History history;
+};
+
+ResultsFolder::ResultsFolder(std::string path, bool resume) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  if (path.empty()) throw InputError("results folder: empty name");
+  impl_ = std::make_unique<Impl>(std::move(path), resume);
+}
+
+ResultsFolder::~ResultsFolder() {
+  try {
+    flush();
+  } catch (const std::exception&) {
+    // Nobody is left to tell; whoever wants to know has called flush(). history.csv is complete.
+  }
+}
+
+const std::string& ResultsFolder::path() const { return impl_->path; }
+
+void ResultsFolder::set_attributes(TextAttributes attributes) {
+  impl_->attributes = std::move(attributes);
+}
+
+void ResultsFolder::truncate_after(double time) {
+  impl_->prepare();
+  impl_->frames.truncate_after(time, impl_->attributes);
+  impl_->history.truncate_after(time);
+}
+
+void ResultsFolder::write_frame(const OutputFrame& frame) {
+  impl_->prepare();
+  impl_->frames.write(frame, impl_->attributes);
+}
+
+void ResultsFolder::write_history(const std::vector<Quantity>& row) {
+  impl_->prepare();
+  impl_->history.append(row);
+}
+
+void ResultsFolder::write_checkpoint(const Checkpoint& checkpoint) {
+  impl_->prepare();
+  output::save_checkpoint(impl_->path + "/checkpoint.h5", checkpoint, impl_->attributes);
+}
+
+void ResultsFolder::write_summary(const Json& summary) {
+  impl_->prepare();
+  output::replace_file(impl_->path + "/summary.json", to_text(summary));
+}
+
+void ResultsFolder::write_text(const std::string& name, const std::string& text) {
+  if (name.empty() || name.find('/') != std::string::npos) {
+    throw std::invalid_argument("results: '" + name + "' is not the name of a file");
+  }
+  impl_->prepare();
+  output::replace_file(impl_->path + "/" + name, text);
+}
+
+void ResultsFolder::flush() {
+  if (impl_->ready) impl_->history.save_copy(impl_->attributes);
+}
+
+}  // namespace krater

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <sstream>
+
+#include "scene/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr double kMostPoints = 1e9;
+/// Of what a body may lose at the sides of the domain before it is said, and what round-off may
+/// claim.
+constexpr double kLostFraction = 1e-9;
+
+void fail(const std::string& path, const std::string& message, Reading& reading) {
+  const Node* node = &reading.root;
+  for (std::size_t start = 0; start <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', start), path.size());
+    const Node* next = node->find(path.substr(start, dot - start));
+    if (!next) break;
+    node = next;
+    start = dot + 1;
+  }
+  reading.problems.add(node->file, node->line, path, message);
+}
+
+std::string short_text(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+/// numerics.md A3: near the edge of a hat the nodal acceleration grows like 1/distance, and so does
+/// the velocity gradient with update usl; the part of the velocity that pure FLIP keeps lets it
+/// grow without bound.
+void check_method(Reading& reading) {
+  const MethodOptions& method = reading.scene.method;
+  const bool kinked = method.shape != Shape::quadratic_bspline;
+  if (kinked && method.update == Update::usl && method.transfer == Transfer::flip) {
+    const std::string shape = method.shape == Shape::gimp ? "gimp" : "linear";
+    fail("method",
+         "shape " + shape +
+             " is unstable with update usl and transfer flip (numerics A3); use update: musl, "
+             "transfer: tflip or shape: quadratic_bspline",
+         reading);
+  }
+  if (method.transfer == Transfer::xpic && method.update == Update::usl && method.xpic_order > 2 &&
+      reading.scene.time.cfl >= 0.5) {
+    reading.scene.notes.push_back(
+        "method: xpic of order " + std::to_string(method.xpic_order) +
+        " with update usl was unstable from cfl 0.5 on in tests (numerics A3)");
+  }
+}
+
+/// A body that sticks out of the domain loses what is outside: meant at a plane of symmetry, else
+/// worth saying.
+void check_sides(const BodyOptions& body, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const GridOptions& grid = scene.grid;
+  const Box extent = body.solid->extent(scene.frame);
+  for (int axis = 0; axis < dimension(scene.frame); ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const std::array<double, 2> outside{grid.min[a] - extent.min[a], extent.max[a] - grid.max[a]};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (outside[side] <= 1e-6 * grid.cell) continue;
+      const BoundaryKind kind = grid.boundary[a][side].kind;
+      if (kind == BoundaryKind::symmetry) continue;
+      const std::string which =
+          std::string{axis_name(scene.frame, axis)} + (side == 0 ? "_min" : "_max");
+      const std::string message =
+          "sticks out of the domain at " + which + " by " + short_text(outside[side]) + " m";
+      if (kind == BoundaryKind::open) {
+        reading.scene.notes.push_back(body.where + ": " + message +
+                                      "; what is outside is left out");
+      } else {
+        fail("bodies." + body.name, message + ", through a side that carries a condition", reading);
+      }
+    }
+  }
+}
+
+/// Estimated number of points of a body in the domain.
+double check_body(const BodyOptions& body, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const GridOptions& grid = scene.grid;
+  const Box domain{grid.min, grid.max};
+  const CellPart part = body.solid->part(scene.frame, domain);
+  const CellPart whole = body.solid->part(scene.frame, body.solid->extent(scene.frame));
+  if (!(part.measure > kLostFraction * whole.measure)) {
+    fail("bodies." + body.name, "lies outside the domain", reading);
+    return 0;
+  }
+  check_sides(body, reading);
+  const double cells = part.section / std::pow(grid.cell, dimension(scene.frame));
+  if (cells < 1) {
+    reading.scene.notes.push_back(body.where + ": is smaller than one cell (" +
+                                  short_text(100 * cells) + " % of it)");
+  }
+  return cells * std::pow(scene.method.points_per_direction, dimension(scene.frame));
+}
+
+}  // namespace
+
+void check_scene(Reading& reading) {
+  Scene& scene = reading.scene;
+  check_method(reading);
+  double points = 0;
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const BodyOptions& body : scene.bodies) {
+    points += check_body(body, reading);
+    used[static_cast<std::size_t>(body.material)] = true;
+  }
+  if (points > kMostPoints) {
+    fail("grid.cell", "about " + short_text(points) + " points, more than 1e9; use a larger cell",
+         reading);
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) scene.notes.push_back(scene.materials[i].where + ": no body is made of it");
+  }
+}
+
+}  // namespace krater::scene

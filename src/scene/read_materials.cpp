@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "krater/materials/catalogue.hpp"
+#include "scene/cards.hpp"
+#include "scene/elastic_constants.hpp"
+#include "scene/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, kRequired,
+                                 "density at rest"};
+constexpr ParameterInfo kTemperature{"initial_temperature", "K", Range::positive, 293,
+                                     "at the start"};
+
+const LawInfo& law_info(const LawChoice& choice) {
+  return catalogue()[static_cast<std::size_t>(choice.law)];
+}
+
+/// Parameters of a law that the material's elastic constants give where the law's own block does
+/// not.
+std::optional<double> implied(const ParameterInfo& info, ElasticConstants& constants) {
+  const std::string key = info.key;
+  if (key == "bulk_modulus" && constants.bulk) constants.bulk_used = true;
+  if (key == "bulk_modulus") return constants.bulk;
+  if (key == "lame_lambda" && constants.bulk) {
+    constants.bulk_used = true;
+    return *constants.bulk - 2.0 / 3.0 * constants.shear;
+  }
+  return std::nullopt;
+}
+
+struct LawReader {
+  Reading& reading;
+  ElasticConstants& constants;
+  Block& material;
+  MaterialOptions& options;
+
+  /// The parameters of one law; `node` may be null: all defaults.
+  Node read_parameters(LawChoice& choice, const Node* node, const std::string& path) {
+    const LawInfo& law = law_info(choice);
+    Block block{node, path, material.place(), reading.problems};
+    choice.where = block.place().where();
+    const bool absent = node == nullptr;
+    for (ParameterInfo info : law.parameters) {
+      if (const auto value = implied(info, constants)) info.fallback = *value;
+      choice.values.push_back(block.number(info));
+    }
+    if (absent) choice.where = material.place().where();
+    const MaterialConstants shared{options.density, options.shear_modulus,
+                                   options.initial_temperature};
+    if (!reading.problems.any()) {
+      if (const char* problem = law_problem(choice.law, choice.values.data(), shared))
+        block.fail(problem);
+    }
+    return block.finish();
+  }
+
+  /// `strength: {johnson_cook: {...}}` or `strength: elastic`.
+  std::optional<LawChoice> read_named(const char* family) {
+    const Node* node = material.find_block(family);
+    if (!node) return std::nullopt;
+    const std::optional<Choice> chosen = read_choice(*node, "model", reading.problems);
+    if (!chosen) return std::nullopt;
+    LawChoice choice;
+    choice.name = chosen->name;
+    choice.law = find_law(family, chosen->name);
+    if (choice.law < 0) {
+      // The error names the block: that is where the user looks for the choice.
+      Node place = *chosen->place;
+      place.path = node->path;
+      report_unknown(place, "model", chosen->name, law_names(family), reading.problems);
+      return std::nullopt;
+    }
+    Node resolved;
+    add_member(resolved, choice.name,
+               read_parameters(choice, chosen->value, node->path + "." + choice.name));
+    material.record(family, resolved);
+    return choice;
+  }
+
+  /// A family whose first law goes without saying: `viscosity: {q_lin: 0.3}`, its parameters stand
+  /// in the block itself.
+  std::optional<LawChoice> read_unnamed(const char* family) {
+    const Node* node = material.find_block(family);
+    if (!node) return std::nullopt;
+    if (node->items.size() == 1 && find_law(family, node->items[0].key) >= 0)
+      return read_named(family);
+    LawChoice choice;
+    choice.name = law_names(family).front();
+    choice.law = find_law(family, choice.name);
+    material.record(family, read_parameters(choice, node, node->path));
+    return choice;
+  }
+};
+
+void check_combination(const MaterialOptions& material, Block& block, Reading& reading) {
+  const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
+  if (strength && strength->whole_stress && material.eos) {
+    block.fail("strength " + strength->name + " gives the pressure too: remove eos");
+  }
+  if (!material.eos && !(strength && strength->whole_stress)) {
+    std::string whole;
+    for (const LawInfo& law : catalogue()) {
+      if (law.whole_stress) whole += (whole.empty() ? "" : ", ") + law.name;
+    }
+    block.fail("missing key 'eos' (known: " + join(law_names("eos")) + "; only with strength " +
+               whole + " there is none)");
+  }
+  if (strength && strength->needs_shear_modulus && !(material.shear_modulus > 0)) {
+    block.fail("strength " + strength->name +
+               " needs shear_modulus, or youngs_modulus and poisson_ratio");
+  }
+  if (strength && strength->name == "johnson_cook" && !material.heating) {
+    reading.scene.notes.push_back(block.place().where() +
+                                  ": johnson_cook without heating: plastic work does not "
+                                  "soften the material");
+  }
+  const bool plastic = strength && strength->name != "elastic" && !strength->whole_stress;
+  if (material.heating && !plastic) {
+    reading.scene.notes.push_back(block.place().where() +
+                                  ": heating has no effect without plastic flow");
+  }
+}
+
+Node read_material(const Node& node, Reading& reading) {
+  MaterialOptions material;
+  material.name = node.key;
+  Block block{&node, node.path, node, reading.problems};
+  material.where = block.place().where();
+  block.find("card");  // already laid under the block
+  material.density = block.number(kDensity);
+  ElasticConstants constants = read_elastic_constants(block);
+  material.shear_modulus = constants.shear;
+  if (constants.shear > 0) block.record("shear_modulus", number_node(constants.shear));
+  material.initial_temperature = block.number(kTemperature);
+  LawReader laws{reading, constants, block, material};
+  material.eos = laws.read_named("eos");
+  material.strength = laws.read_named("strength");
+  material.heating = laws.read_named("heating");
+  material.viscosity = laws.read_unnamed("viscosity");
+  if (constants.bulk_given && !constants.bulk_used && !reading.problems.any()) {
+    block.fail(*node.find("bulk_modulus"),
+               "is not used: no law of this material takes its bulk modulus from here");
+  }
+  Node resolved = block.finish();
+  if (!reading.problems.any()) check_combination(material, block, reading);
+  reading.scene.materials.push_back(std::move(material));
+  return resolved;
+}
+
+}  // namespace
+
+Node read_materials(const Node* node, Reading& reading) {
+  Node resolved;
+  resolved.kind = Node::Kind::map;
+  if (!node) return resolved;
+  if (node->kind != Node::Kind::map || node->items.empty()) {
+    reading.problems.add(node->file, node->line, node->path,
+                         "expected a block of named materials, found " + node->kind_name());
+    return resolved;
+  }
+  for (const Node& item : node->items) {
+    if (!check_name(item, reading.problems)) continue;
+    const std::size_t before = reading.problems.size();
+    const Node whole = with_card(item, reading.scene.file, reading.problems);
+    if (reading.problems.size() > before) {
+      // Without its card the block would only seem to lack keys; bodies may still name it.
+      reading.scene.materials.emplace_back().name = item.key;
+      continue;
+    }
+    add_member(resolved, item.key, read_material(whole, reading));
+  }
+  return resolved;
+}
+
+}  // namespace krater::scene

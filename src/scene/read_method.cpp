@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "krater/points/fields.hpp"
+#include "scene/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kEnd{"end", "s", Range::positive, kRequired, "time at which the run ends"};
+constexpr ParameterInfo kCfl{"cfl", "1", Range::positive, 0.5, "Courant number, at most 1"};
+constexpr ParameterInfo kMaxStep{"max_step", "s", Range::non_negative, 0,
+                                 "longest time step, 0: any"};
+constexpr ParameterInfo kMinStep{"min_step", "s", Range::non_negative, 0,
+                                 "a shorter time step is a failure, 0: 1e-6 of the first"};
+constexpr ParameterInfo kFirstStep{"first_step", "s", Range::non_negative, 0, "0: automatic"};
+
+constexpr ParameterInfo kJitter{"jitter", "1", Range::fraction, 0,
+                                "greatest random shift of a point, in point spacings"};
+constexpr ParameterInfo kFlip{"flip_fraction", "1", Range::fraction, 0.999,
+                              "part of the point's own velocity kept where the flow is smooth"};
+constexpr ParameterInfo kFlipShock{"flip_fraction_shock", "1", Range::fraction, 0.97,
+                                   "the same in shocks"};
+
+constexpr ParameterInfo kFrames{"frames", "s", Range::non_negative, 0,
+                                "between frames, 0: first and last"};
+constexpr ParameterInfo kHistory{"history", "s", Range::non_negative, 0,
+                                 "between rows, 0: every step"};
+constexpr ParameterInfo kCheckpoint{"checkpoint", "s", Range::non_negative, 600,
+                                    "wall clock between checkpoints, 0: at the end or on a signal"};
+
+constexpr int kHighestXpicOrder = 10;
+
+/// `flip`, or `{xpic: {order: 4}}`.
+Node read_transfer(const Node* node, Reading& reading) {
+  MethodOptions& method = reading.scene.method;
+  const Words<Transfer> words{{"tflip", Transfer::tflip},
+                              {"flip", Transfer::flip},
+                              {"apic", Transfer::apic},
+                              {"xpic", Transfer::xpic}};
+  const Node* options = nullptr;
+  if (node) {
+    const std::optional<Choice> choice = read_choice(*node, "transfer", reading.problems);
+    const auto found = std::find_if(words.begin(), words.end(), [&](const auto& word) {
+      return choice && choice->name == word.first;
+    });
+    if (found != words.end()) {
+      method.transfer = found->second;
+      options = choice->value;
+    } else if (choice) {
+      std::vector<std::string> known;
+      for (const auto& word : words) known.emplace_back(word.first);
+      report_unknown(*choice->place, "transfer", choice->name, known, reading.problems);
+      return {};
+    }
+  }
+  const std::string name = std::find_if(words.begin(), words.end(), [&](const auto& word) {
+                             return word.second == method.transfer;
+                           })->first;
+  Block block{options, "method.transfer." + name, node ? *node : reading.root, reading.problems};
+  if (method.transfer == Transfer::xpic)
+    method.xpic_order = block.integer("order", 1, kHighestXpicOrder, method.xpic_order);
+  const Node values = block.finish();
+  if (values.items.empty()) return string_node(name);
+  Node resolved;
+  add_member(resolved, name, values);
+  return resolved;
+}
+
+}  // namespace
+
+Node read_time(const Node* node, Reading& reading) {
+  TimeOptions& time = reading.scene.time;
+  Block block{node, "time", reading.root, reading.problems};
+  time.end = block.number(kEnd);
+  time.cfl = block.number(kCfl);
+  if (time.cfl > 1)
+    block.fail(*node->find("cfl"), "must be at most 1 (the scheme is unstable beyond), found " +
+                                       quote(node->find("cfl")->text));
+  time.max_step = block.number(kMaxStep);
+  time.min_step = block.number(kMinStep);
+  time.first_step = block.number(kFirstStep);
+  if (time.max_step > 0 && time.min_step > time.max_step)
+    block.fail("min_step is longer than max_step");
+  if (time.max_step > 0 && time.first_step > time.max_step)
+    block.fail("first_step is longer than max_step");
+  return block.finish();
+}
+
+Node read_method(const Node* node, Reading& reading) {
+  MethodOptions& method = reading.scene.method;
+  Block block{node, "method", reading.root, reading.problems};
+  method.shape = block.choice<Shape>("shape",
+                                     {{"quadratic_bspline", Shape::quadratic_bspline},
+                                      {"gimp", Shape::gimp},
+                                      {"linear", Shape::linear}},
+                                     method.shape);
+  block.record("transfer", read_transfer(block.find("transfer"), reading));
+  method.update = block.choice<Update>(
+      "update", {{"usl", Update::usl}, {"musl", Update::musl}, {"usf", Update::usf}},
+      method.update);
+  method.points_per_direction =
+      block.integer("points_per_direction", 1, 8, method.points_per_direction);
+  method.stagger = block.flag("stagger", method.stagger);
+  method.jitter = block.number(kJitter);
+  method.seed = static_cast<unsigned>(block.integer("seed", 0, 1'000'000'000, 1));
+  method.cell_averaging = block.flag("cell_averaging", method.cell_averaging);
+  method.flip_fraction = block.number(kFlip);
+  method.flip_fraction_shock = block.number(kFlipShock);
+  return block.finish();
+}
+
+const std::vector<FieldName>& known_fields() {
+  static const std::vector<FieldName> fields = [] {
+    const FieldInfo* const all[] = {&field::Position::info,
+                                    &field::Velocity::info,
+                                    &field::AffineVelocity::info,
+                                    &field::Mass::info,
+                                    &field::Density::info,
+                                    &field::DeviatoricStress::info,
+                                    &field::Pressure::info,
+                                    &field::ViscousPressure::info,
+                                    &field::InternalEnergy::info,
+                                    &field::Temperature::info,
+                                    &field::PlasticStrain::info,
+                                    &field::SoundSpeed::info,
+                                    &field::ShockIndicator::info,
+                                    &field::HalfWidth::info,
+                                    &field::DeformationGradient::info,
+                                    &field::ReferencePosition::info,
+                                    &field::BodyAcceleration::info,
+                                    &field::GridVelocity::info};
+    std::vector<FieldName> names;
+    for (const FieldInfo* info : all) names.push_back({info->name, info->unit});
+    return names;
+  }();
+  return fields;
+}
+
+Node read_output(const Node* node, Reading& reading) {
+  OutputOptions& output = reading.scene.output;
+  Block block{node, "output", reading.root, reading.problems};
+  output.where = block.place().where();
+  output.frames = block.number(kFrames);
+  output.history = block.number(kHistory);
+  output.checkpoint_wall = block.number(kCheckpoint);
+  std::vector<Node> written;
+  if (const Node* list = block.find("fields")) {
+    output.where = list->where();
+    if (list->kind != Node::Kind::list)
+      block.fail(*list, "expected a list of fields, found " + list->kind_name());
+    std::vector<std::string> known;
+    for (const FieldName& field : known_fields()) known.emplace_back(field.name);
+    for (const Node& item : list->kind == Node::Kind::list ? list->items : std::vector<Node>{}) {
+      const std::optional<std::string> name = read_word(item, reading.problems);
+      if (!name) continue;
+      if (std::find(known.begin(), known.end(), *name) == known.end()) {
+        report_unknown(item, "field", *name, known, reading.problems);
+      } else if (std::find(output.fields.begin(), output.fields.end(), *name) !=
+                 output.fields.end()) {
+        block.fail(item, quote(*name) + " is listed twice");
+      } else {
+        output.fields.push_back(*name);
+        written.push_back(string_node(*name));
+      }
+    }
+  }
+  block.record("fields", list_node(written));
+  return block.finish();
+}
+
+}  // namespace krater::scene

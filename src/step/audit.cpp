@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/step/audit.hpp"
+
+namespace krater {
+
+void Audit::book_step(const StepEnergies& e, double wall, double correction,
+                      const std::array<double, 3>& impulse, int columns) {
+  const double work = e.grid_after - e.grid_before + correction - step_external;  // of the internal forces
+  transfer_in += e.kinetic - e.grid_before;
+  internal_work += work;
+  external_work += step_external;
+  wall_work += wall - correction;
+  transfer_out += e.grid_after + wall - kinetic;
+  time_centring += -work - (internal - e.internal);
+  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += impulse[a];
+  wall_columns = columns;
+  step_external = 0;
+}
+
+void Audit::book_events(const Ledger& ledger) {
+  plastic_work += ledger.plastic_work;
+  viscous_work += ledger.viscous_work;
+  plastic_heating += ledger.plastic_heating;
+  sound_speed_floors += ledger.sound_speed_floors;
+  hugoniot_poles += ledger.hugoniot_poles;
+}
+
+void Audit::book_removed(double kinetic_gone, double internal_gone, double mass, double count,
+                         const std::array<double, 3>& momentum, double reflected) {
+  kinetic -= kinetic_gone;
+  internal -= internal_gone;
+  removed_energy += kinetic_gone + internal_gone;
+  removed_mass += mass;
+  removed_points += count;
+  for (std::size_t a = 0; a < 3; ++a) removed_momentum[a] += momentum[a];
+  reflections += reflected;
+}
+
+}  // namespace krater

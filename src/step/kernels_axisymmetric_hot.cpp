@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/step/transfer_kernels.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine);
+Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine) { return make_transfer_kernels<Axisymmetric>(shape, affine); }
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/step/migrate.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "krater/core/parallel.hpp"
+
+namespace krater {
+
+namespace {
+
+/// Component k of point i in AoSoA storage.
+double& at(Patch& patch, int stride, int offset, int i) {
+  return patch.records.data()[static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(stride) +
+                              static_cast<std::size_t>(offset + i % kLanes)];
+}
+
+void copy_point(Patch& patch, int stride, int from, int to) {
+  for (int k = 0; k < stride; k += kLanes) at(patch, stride, k, to) = at(patch, stride, k, from);
+}
+
+/// Outside a closed side by round-off: mirror position and normal velocity.
+void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int axis, int i) {
+  double& x = at(patch, c.stride, c.position + kLanes * axis, i);
+  const double lower = geometry.min[static_cast<unsigned>(axis)], upper = geometry.upper(axis);
+  x = x < lower ? 2 * lower - x : 2 * upper - x;
+  double& v = at(patch, c.stride, c.velocity + kLanes * axis, i);
+  v = -v;
+}
+
+void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int i, Removed& removed) {
+  const double m = at(patch, c.stride, c.mass, i);
+  removed.count += 1;
+  removed.mass += m;
+  removed.kinetic += point_kinetic(patch, i, c, geometry);
+  if (c.energy >= 0) removed.internal += m * at(patch, c.stride, c.energy, i);
+  for (int a = 0; a < geometry.dimension; ++a)
+    removed.momentum[static_cast<unsigned>(a)] += m * at(patch, c.stride, c.velocity + kLanes * a, i);
+}
+
+enum class Fate { stays, goes, removed };
+
+/// Puts a point back inside closed sides, then says where it belongs.
+Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary, const PointColumns& c, int i,
+           int& slot, Removed& removed) {
+  slot = 0;
+  bool here = true;
+  for (int a = 0; a < geometry.dimension; ++a) {
+    double x = at(patch, c.stride, c.position + kLanes * a, i);
+    const bool low = x < geometry.min[static_cast<unsigned>(a)], high = geometry.storage(x, a) > geometry.cells[static_cast<unsigned>(a)] + 1.0;
+    if (low || high) {
+      if (boundary.is_open(a, low ? 0 : 1)) return Fate::removed;
+      reflect(patch, c, geometry, a, i);
+      removed.reflections += 1;
+      x = at(patch, c.stride, c.position + kLanes * a, i);
+    }
+  }
+  double position[3];
+  for (int a = 0; a < geometry.dimension; ++a) position[a] = at(patch, c.stride, c.position + kLanes * a, i);
+  const BlockKey key = block_of(geometry, position);
+  for (int a = 0; a < geometry.dimension; ++a) {
+    const int offset = key.i[static_cast<unsigned>(a)] - patch.key.i[static_cast<unsigned>(a)];
+    if (offset < -1 || offset > 1) {
+      if (patch.result.fault.kind == FaultKind::none)
+        patch.result.fault = {FaultKind::moved_too_far, i / kLanes, 1U << (i % kLanes)};
+      return Fate::stays;
+    }
+    here = here && offset == 0;
+    slot = 3 * slot + offset + 1;
+  }
+  return here ? Fate::stays : Fate::goes;
+}
+
+void post(Patch& patch, int stride, int slot, int i) {
+  for (int k = 0; k < stride; k += kLanes) patch.outbox.records.push_back(at(patch, stride, k, i));
+  patch.outbox.slots.push_back(static_cast<std::uint8_t>(slot));
+  patch.outbox.used |= 1U << slot;
+}
+
+}  // namespace
+
+double point_kinetic(const Patch& patch, int i, const PointColumns& c, const GridGeometry& geometry) {
+  const double* record = patch.records.data() + static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
+  const int lane = i % kLanes, dimension = geometry.dimension;
+  double twice = 0;
+  for (int a = 0; a < dimension; ++a) {
+    const double v = record[c.velocity + kLanes * a + lane];
+    twice += v * v;
+  }
+  if (c.affine >= 0)
+    for (int k = 0; k < dimension * dimension; ++k) {
+      const double L = record[c.affine + kLanes * k + lane];
+      twice += 0.25 * geometry.h * geometry.h * L * L;
+    }
+  return 0.5 * record[c.mass + lane] * twice;
+}
+
+Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+                        const PointColumns& columns, const unsigned char* leavers) {
+  Removed removed;
+  patch.outbox.clear();
+  std::vector<int> holes;
+  for (int g = 0; g < patch.groups(); ++g) {
+    if (leavers[g] == 0) continue;
+    for (int l = 0; l < kLanes; ++l) {
+      if (((leavers[g] >> l) & 1) == 0) continue;
+      const int i = kLanes * g + l;
+      int slot = 0;
+      const Fate fate = judge(patch, geometry, boundary, columns, i, slot, removed);
+      if (fate == Fate::stays) continue;
+      if (fate == Fate::goes) post(patch, columns.stride, slot, i);
+      else tally(patch, columns, geometry, i, removed);
+      holes.push_back(i);
+    }
+  }
+  // Fill holes from the end: the last point that stays moves into the first hole.
+  std::size_t first = 0, last = holes.size();
+  int count = patch.count;
+  while (first < last) {
+    if (holes[last - 1] == count - 1) {
+      --last;
+    } else {
+      copy_point(patch, columns.stride, count - 1, holes[first]);
+      ++first;
+    }
+    --count;
+  }
+  patch.count = count;
+  return removed;
+}
+
+void append(Patch& patch, const double* point, int stride) {
+  const int i = patch.count++;
+  patch.records.reserve(static_cast<std::size_t>(patch.groups()) * static_cast<std::size_t>(stride));
+  for (int k = 0; k < stride; k += kLanes) at(patch, stride, k, i) = point[k / kLanes];
+}
+
+void pad(Patch& patch, int stride, int mass_offset) {
+  for (int i = patch.count; i < kLanes * patch.groups(); ++i) {
+    copy_point(patch, stride, patch.count - 1, i);
+    at(patch, stride, mass_offset, i) = 0;
+  }
+}
+
+bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
+  const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
+  std::set<std::pair<BlockKey, int>> missing;
+  for (const Patch& patch : grid.patches)
+    for (int s = 0; s < slots; ++s)
+      if (((patch.outbox.used >> s) & 1U) != 0 && patch.neighbours[static_cast<unsigned>(s)] < 0)
+        missing.insert({shifted(patch.key, s, dimension), patch.body});
+  for (const auto& [key, body] : missing) {
+    grid.patches.emplace_back();
+    grid.patches.back().key = key;
+    grid.patches.back().body = body;
+  }
+  if (!missing.empty()) grid.rebuild(false);
+
+  for_each(grid.patches.size(), [&](std::size_t p) {
+    Patch& patch = grid.patches[p];
+    const BodyKernelData& body = bodies[static_cast<unsigned>(patch.body)];
+    const int stride = body.columns.stride, width = stride / kLanes;
+    for (int s = 0; s < slots; ++s) {
+      const int source = patch.neighbours[static_cast<unsigned>(s)];
+      const int towards_us = slots - 1 - s;
+      if (source < 0) continue;
+      const Outbox& box = grid.patches[static_cast<unsigned>(source)].outbox;
+      if (((box.used >> towards_us) & 1U) == 0) continue;
+      for (std::size_t k = 0; k < box.slots.size(); ++k)
+        if (box.slots[k] == towards_us) append(patch, box.records.data() + k * static_cast<std::size_t>(width), stride);
+    }
+    if (patch.count > 0) pad(patch, stride, body.columns.mass);
+  });
+  bool emptied = false;
+  for (Patch& patch : grid.patches) {
+    patch.outbox.clear();
+    emptied = emptied || patch.count == 0;
+  }
+  if (emptied) grid.rebuild(true);
+  return emptied || !missing.empty();
+}
+
+}  // namespace krater

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/step/mpm_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "krater/core/parallel.hpp"
+
+namespace krater {
+
+namespace {
+
+// A step is halved when the change of velocity alone would move material by more than this share of a cell.
+constexpr double kMaxShare = 0.3;
+
+double alpha_of(const MethodOptions& m, double tflip) {
+  switch (m.transfer) {
+    case Transfer::tflip: return tflip;
+    case Transfer::flip: return 1;
+    case Transfer::apic:
+    case Transfer::xpic: break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, const Kernels& kernels,
+                 const std::vector<BodyKernelData>& bodies)
+    : method_{method}, grid_{grid}, boundary_{boundary}, kernels_{kernels}, bodies_{bodies}, velocity_from_kept_{bodies} {
+  for (BodyKernelData& body : velocity_from_kept_) body.columns.velocity = body.columns.grid_velocity;
+  zeros_.reserve(9 * kLanes);
+  cell_volume_ = std::pow(grid.geometry().h, grid.geometry().dimension);
+}
+
+double MpmStep::advance(double dt) {
+  switch (method_.update) {
+    case Update::usl: dt = step_usl(dt); break;
+    case Update::musl: dt = step_musl(dt); break;
+    case Update::usf: dt = step_usf(dt); break;
+  }
+  migrate();
+  return dt;
+}
+
+double MpmStep::step_usl(double dt) {
+  const double kinetic = audit_.kinetic, internal = audit_.internal;
+  particles_to_grid(bodies_, dt);
+  const GridEnergy grid = momentum(dt, 1);
+  const BoundaryWork wall = boundary_.constrain();
+  boundary_.mirror();
+  if (method_.transfer == Transfer::xpic) filter_velocity();
+  grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all, dt);
+  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction, wall.impulse,
+                   wall.columns_in_contact);
+  return dt;
+}
+
+double MpmStep::step_musl(double dt) {
+  const double kinetic = audit_.kinetic, internal = audit_.internal;
+  particles_to_grid(bodies_, dt);
+  const GridEnergy grid = momentum(dt, 1);
+  const BoundaryWork wall = boundary_.constrain();
+  boundary_.mirror();
+  grid_to_particles(GatherPart::velocity_only, dt);
+
+  particles_to_grid(bodies_, dt);  // the new velocities with the old weights
+  const GridEnergy again = momentum(dt, 0);
+  const BoundaryWork wall_again = boundary_.constrain();
+  boundary_.mirror();
+  grid_to_particles(GatherPart::strain_move, dt);
+  audit_.transfer_out += grid.after + wall.work - again.before;  // the detour over the points
+  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction, wall.impulse,
+                   wall.columns_in_contact);
+  audit_.transfer_out += again.after - (grid.after + wall.work) + wall_again.work;
+  audit_.wall_work += wall_again.work;
+  return dt;
+}
+
+double MpmStep::step_usf(double dt) {
+  const double kinetic = audit_.kinetic, internal = audit_.internal;
+  particles_to_grid(bodies_, dt);
+  momentum(dt, 0);
+  boundary_.constrain();
+  boundary_.mirror();
+  grid_to_particles(GatherPart::strain_only, dt);
+
+  particles_to_grid(bodies_, dt);
+  const GridEnergy grid = momentum(dt, 1);
+  const BoundaryWork wall = boundary_.constrain();
+  boundary_.mirror();
+  grid_to_particles(GatherPart::velocity_move, dt);
+  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction, wall.impulse,
+                   wall.columns_in_contact);
+  return dt;
+}
+
+SweepSettings MpmStep::settings(double dt) const {
+  SweepSettings s;
+  s.geometry = &grid_.geometry();
+  s.dt = dt;
+  s.alpha = alpha_of(method_, method_.flip_fraction);
+  s.alpha_shock = alpha_of(method_, method_.flip_fraction_shock);
+  s.average_cells = method_.cell_averaging;
+  s.shock_switch = method_.cell_averaging || s.alpha != s.alpha_shock;
+  return s;
+}
+
+SweepScratch MpmStep::scratch() {
+  ThreadMemory& m = memory_[static_cast<unsigned>(thread_index())];
+  return {m.halo.data(), m.local.data(), m.cells.data(), m.pressures.data(), m.leavers.data(), zeros_.data()};
+}
+
+void MpmStep::relink() {
+  boundary_.relink(grid_);
+  provide_memory();
+}
+
+void MpmStep::provide_memory() {
+  int groups = 1, local = 1;
+  for (const Patch& p : grid_.patches) groups = std::max(groups, p.groups());
+  for (const BodyKernelData& b : bodies_) local = std::max(local, b.columns.local_stride);
+  const auto count = static_cast<std::size_t>(groups + groups / 4 + 1);
+  memory_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
+  for (ThreadMemory& m : memory_) {
+    m.halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) * kNodeDoubles);
+    m.cells.reserve(2 * kBlockNodes);
+    m.local.reserve(static_cast<std::size_t>(groups) * static_cast<std::size_t>(local));
+    m.pressures.reserve(static_cast<std::size_t>(groups) * kLanes);
+    if (m.leavers.size() < static_cast<std::size_t>(groups)) m.leavers.resize(count);
+  }
+  removed_.resize(grid_.patches.size());
+}
+
+void MpmStep::particles_to_grid(const std::vector<BodyKernelData>& bodies, double dt) {
+  const SweepSettings s = settings(dt);
+  for_each(grid_.patches.size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches[p];
+    patch.result.fault = {};
+    kernels_.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
+  });
+  throw_faults();
+}
+
+MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
+  for_each(grid_.node_blocks.size(), [&](std::size_t n) {
+    NodeBlock& block = grid_.node_blocks[n];
+    kernels_.sum_tiles(grid_, block);
+    if (!block.at_boundary) kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
+  });
+  boundary_.fold();
+  for (NodeBlock& block : grid_.node_blocks)
+    if (block.at_boundary) kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
+  double max_change = 0;
+  for (const NodeBlock& block : grid_.node_blocks) max_change = std::max(max_change, block.sums.max_change);
+  if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h) halve_until_safe(dt, max_change);
+  GridEnergy energy{0, 0};
+  for (const NodeBlock& block : grid_.node_blocks) {
+    energy.before += block.sums.kinetic_before;
+    energy.after += block.sums.kinetic_after;
+  }
+  return energy;
+}
+
+void MpmStep::halve_until_safe(double& dt, double max_change) {
+  double share = 1;
+  while (share * max_change * share * dt > kMaxShare * grid_.geometry().h) share *= 0.5;
+  dt *= share;
+  audit_.retries += 1;
+  for (NodeBlock& block : grid_.node_blocks) {
+    block.sums.kinetic_after = 0;
+    for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles; node += kNodeDoubles) {
+      double speed2 = 0;
+      for (int a = 0; a < 3; ++a) {
+        node[a] -= (1 - share) * node[4 + a];
+        node[4 + a] *= share;
+        speed2 += node[a] * node[a];
+      }
+      block.sums.kinetic_after += 0.5 * node[3] * speed2;
+    }
+  }
+}
+
+void MpmStep::filter_velocity() {
+  // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn (2017), FMPM form.
+  const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
+  const std::size_t total = grid_.node_blocks.size() * block_doubles;
+  filtered_.reserve(2 * total);
+  double* sum = filtered_.data();
+  double* increment = sum + total;
+  if (total == 0) return;
+  double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  std::copy(nodes, nodes + total, sum);
+  for (int order = 1; order < method_.xpic_order; ++order) {
+    std::copy(nodes, nodes + total, increment);
+    grid_to_particles(GatherPart::keep_only, 0);
+    particles_to_grid(velocity_from_kept_, 0);
+    double unused = 0;
+    momentum(unused, 0);
+    boundary_.constrain();
+    boundary_.mirror();
+    for (std::size_t i = 0; i < total; i += kNodeDoubles)
+      for (std::size_t a = i; a < i + 3; ++a) {
+        nodes[a] = increment[a] - nodes[a];
+        sum[a] += nodes[a];
+      }
+  }
+  std::copy(sum, sum + total, nodes);
+}
+
+void MpmStep::grid_to_particles(GatherPart part, double dt) {
+  const SweepSettings s = settings(dt);
+  const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only && part != GatherPart::strain_only;
+  for_each(grid_.patches.size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches[p];
+    const BodyKernelData& body = bodies_[static_cast<unsigned>(patch.body)];
+    const SweepScratch w = scratch();
+    patch.result.ledger = {};
+    if (part != GatherPart::velocity_move) patch.result.max_rate = 0;
+    kernels_.gather(patch, grid_, body, s, w, part);
+    if (moves && patch.result.fault.kind == FaultKind::none)
+      removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, body.columns, w.leavers);
+  });
+  throw_faults();
+  if (part != GatherPart::keep_only) combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
+}
+
+void MpmStep::combine_patches(bool forces_worked) {
+  audit_.kinetic = audit_.internal = 0;
+  max_rate_ = 0;
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
+    const PatchResult& r = grid_.patches[p].result;
+    audit_.kinetic += r.kinetic;
+    audit_.internal += r.internal;
+    if (forces_worked) audit_.step_external += r.external_work;
+    audit_.book_events(r.ledger);
+    if (r.max_rate > max_rate_) max_rate_ = r.max_rate, limiting_patch_ = static_cast<int>(p);
+  }
+}
+
+void MpmStep::throw_faults() const {
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p)
+    if (grid_.patches[p].result.fault.kind != FaultKind::none)
+      throw StepFault{static_cast<int>(p), grid_.patches[p].result.fault};
+}
+
+void MpmStep::migrate() {
+  for (const Removed& r : removed_) audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
+  if (deliver(grid_, bodies_)) relink();
+  else provide_memory();  // patches may have grown
+}
+
+}  // namespace krater

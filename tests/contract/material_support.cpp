@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "material_support.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+namespace krater::test {
+
+namespace {
+
+constexpr int kZeros = 9 * kLanes;
+
+double* aligned(double* p) {
+  return reinterpret_cast<double*>((reinterpret_cast<std::uintptr_t>(p) + 63U) &
+                                   ~std::uintptr_t{63});
+}
+
+const Column& column(const std::vector<Column>& columns, const char* field) {
+  for (const Column& c : columns) {
+    if (std::strcmp(c.field->name, field) == 0) return c;
+  }
+  throw std::out_of_range{std::string{"no column "} + field};
+}
+
+}  // namespace
+
+std::vector<Level> levels() {
+  std::vector<Level> found{{"portable", stage_factory_isa_portable()}};
+#if defined(KRATER_HAVE_V3)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    found.push_back({"v3", stage_factory_isa_v3()});
+  }
+#endif
+#if defined(KRATER_HAVE_V4)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    found.push_back({"v4", stage_factory_isa_v4()});
+  }
+#endif
+  return found;
+}
+
+std::vector<double> typical_parameters(const LawInfo& law) {
+  static const std::map<std::string, double> values{
+      {"von_mises.Y", 120e6},
+      {"von_mises.H", 300e6},
+      {"johnson_cook.A", 90e6},
+      {"johnson_cook.B", 292e6},
+      {"johnson_cook.n", 0.31},
+      {"johnson_cook.C", 0.025},
+      {"johnson_cook.epsdot0", 1.0},
+      {"johnson_cook.m", 1.09},
+      {"johnson_cook.T_ref", 294.0},
+      {"johnson_cook.T_melt", 1356.0},
+      {"neo_hookean.lame_lambda", 1e11},
+      {"linear.bulk_modulus", 139e9},
+      {"mie_gruneisen_polynomial.a0", 139e9},
+      {"mie_gruneisen_polynomial.b0", 275e9},
+      {"mie_gruneisen_polynomial.c0", 470e9},
+      {"mie_gruneisen_polynomial.gamma0", 2.02},
+      {"mie_gruneisen_shock.c0", 3940.0},
+      {"mie_gruneisen_shock.S1", 1.489},
+      {"mie_gruneisen_shock.gamma0", 2.02},
+      {"linear_quadratic.q_lin", 0.3},
+      {"linear_quadratic.q_quad", 2.0},
+      {"plastic_work.fraction", 0.9},
+      {"plastic_work.cp", 383.0},
+  };
+  std::vector<double> result;
+  for (const ParameterInfo& p : law.parameters) result.push_back(values.at(law.name + '.' + p.key));
+  return result;
+}
+
+std::vector<Recipe> all_recipes() {
+  std::vector<Recipe> recipes;
+  for (const LawInfo& strength : catalogue()) {
+    if (strength.family != "strength") continue;
+    const bool plastic = strength.name != "elastic" && !strength.whole_stress;
+    if (strength.whole_stress) {
+      recipes.push_back({.strength = strength.name, .eos = ""});
+      recipes.push_back({.strength = strength.name, .eos = "", .track_deformation = true});
+      continue;
+    }
+    for (const std::string& eos : law_names("eos")) {
+      recipes.push_back({.strength = strength.name, .eos = eos, .heating = plastic});
+    }
+  }
+  for (const std::string& eos : law_names("eos")) {  // fluids
+    recipes.push_back({.strength = "", .eos = eos, .viscosity = eos != "linear"});
+  }
+  return recipes;
+}
+
+std::string describe(const Recipe& recipe) {
+  return recipe.strength + " + " + recipe.eos + (recipe.viscosity ? " + viscosity" : "") +
+         (recipe.heating ? " + heating" : "") + (recipe.track_deformation ? " + F" : "");
+}
+
+Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int batch_size)
+    : layout_{3},
+      points_{points},
+      batch_size_{batch_size},
+      groups_per_batch_{(batch_size + kLanes - 1) / kLanes},
+      groups_{(points + batch_size - 1) / batch_size * groups_per_batch_} {
+  layout_.state<field::Mass>(0.0, "method");
+  if (recipe.track_deformation) layout_.state<field::DeformationGradient>(0.0, "output");
+  layout_.local_output<field::StepGradient>("method");
+  layout_.local_output<field::ExtraDilatation>("method");
+  const auto add = [&](const char* family, const std::string& name) {
+    const int law = find_law(family, name);
+    const std::vector<double> values =
+        typical_parameters(catalogue().at(static_cast<std::size_t>(law)));
+    stages_.emplace_back(factory.make(law, values.data(), kCopper, layout_));
+  };
+  stages_.emplace_back(factory.kinematics(layout_));
+  if (recipe.viscosity) add("viscosity", "linear_quadratic");
+  if (!recipe.strength.empty()) add("strength", recipe.strength);
+  if (!recipe.eos.empty()) add("eos", recipe.eos);
+  if (recipe.heating) add("heating", "plastic_work");
+  stages_.emplace_back(
+      factory.signal_speed(recipe.viscosity ? 0.3 : 0.0, recipe.viscosity ? 2.0 : 0.0, layout_));
+  layout_.check();
+
+  const int state_size = groups_ * layout_.stride(), local_size = groups_ * layout_.local_stride();
+  storage_.assign(static_cast<std::size_t>(state_size + local_size + kZeros + 3 * kLanes), 0.0);
+  zeros_ = aligned(storage_.data());
+  state_ = zeros_ + kZeros;
+  local_ = state_ + state_size;
+  for (int i = 0; i < points_; ++i) {
+    for (const Column& c : layout_.columns()) {
+      for (int k = 0; k < c.components; ++k) state(c.field->name, i, k) = c.initial;
+    }
+    state("density", i) = kCopper.density;
+    state("mass", i) = 1e-9 * (1.0 + 0.1 * i);
+    if (layout_.find("deformation_gradient") != nullptr) {
+      for (const int k : {0, 4, 8}) state("deformation_gradient", i, k) = 1.0;
+    }
+  }
+}
+
+int Body::slot(int point) const {
+  const int batch = point / batch_size_, inside = point % batch_size_;
+  return batch * groups_per_batch_ * kLanes + inside;
+}
+
+double& Body::state(const char* field, int point, int component) {
+  const Column& c = column(layout_.columns(), field);
+  const int s = slot(point);
+  return state_[s / kLanes * layout_.stride() + c.offset + component * kLanes + s % kLanes];
+}
+
+double& Body::local(const char* field, int point, int component) {
+  const Column& c = column(layout_.locals(), field);
+  const int s = slot(point);
+  return local_[s / kLanes * layout_.local_stride() + c.offset + component * kLanes + s % kLanes];
+}
+
+void Body::pad() {
+  const int batches = groups_ / groups_per_batch_;
+  for (int b = 0; b < batches; ++b) {
+    const int last = std::min((b + 1) * batch_size_, points_) - 1;
+    const int from = slot(last), end = (b + 1) * groups_per_batch_ * kLanes;
+    const auto copy = [&](double* base, int stride, int to) {
+      for (int k = 0; k < stride; k += kLanes) {
+        base[to / kLanes * stride + k + to % kLanes] =
+            base[from / kLanes * stride + k + from % kLanes];
+      }
+    };
+    const int mass = column(layout_.columns(), "mass").offset;
+    for (int to = from + 1; to < end; ++to) {
+      copy(state_, layout_.stride(), to);
+      copy(local_, layout_.local_stride(), to);
+      state_[to / kLanes * layout_.stride() + mass + to % kLanes] = 0.0;
+    }
+  }
+}
+
+void Body::step(double dt) {
+  pad();
+  const int batches = groups_ / groups_per_batch_;
+  for (int b = 0; b < batches; ++b) {
+    const int first = b * groups_per_batch_;
+    const int count = std::min(batch_size_, points_ - b * batch_size_);
+    const BatchData batch{.state = state_ + first * layout_.stride(),
+                          .state_stride = layout_.stride(),
+                          .local = local_ + first * layout_.local_stride(),
+                          .local_stride = layout_.local_stride(),
+                          .zeros = zeros_,
+                          .groups = (count + kLanes - 1) / kLanes,
+                          .count = count,
+                          .first_group = first,
+                          .dt = dt,
+                          .length = 1e-4,
+                          .ledger = &ledger,
+                          .fault = &fault};
+    for (const auto& stage : stages_) stage->apply(batch);
+  }
+}
+
+std::vector<double> Body::everything(int point) {
+  std::vector<double> values;
+  for (const Column& c : layout_.columns()) {
+    for (int k = 0; k < c.components; ++k) values.push_back(state(c.field->name, point, k));
+  }
+  for (const Column& c : layout_.locals()) {
+    for (int k = 0; k < c.components; ++k) values.push_back(local(c.field->name, point, k));
+  }
+  return values;
+}
+
+void set_motion(Body& body, int step, double size) {
+  for (int i = 0; i < body.points(); ++i) {
+    for (int k = 0; k < 9; ++k) {
+      const double phase = 0.37 * i + 1.7 * k + 0.11 * step * (1 + k % 3);
+      body.local("step_gradient", i, k) = size * std::sin(phase) * (1 + i % 5);
+    }
+    body.local("extra_dilatation", i) = 0.2 * size * std::cos(0.9 * i + 0.3 * step);
+  }
+}
+
+}  // namespace krater::test

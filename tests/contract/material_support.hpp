@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// A body without a grid: a layout, the stages of a material at one instruction-set level, and
+/// points in batches of any size, as the method would hand them over. Every law of the catalogue
+/// must have typical parameters here.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/materials/catalogue.hpp"
+#include "krater/points/batch.hpp"
+
+namespace krater::test {
+
+/// The levels that this build has and this machine can run.
+struct Level {
+  const char* name;
+  const StageFactory* factory;
+};
+std::vector<Level> levels();
+
+/// Plausible values (copper) for a law's parameters, in declared order; throws if a key is not
+/// known here.
+std::vector<double> typical_parameters(const LawInfo& law);
+
+/// Constants of the same copper.
+inline constexpr MaterialConstants kCopper{8960.0, 46e9, 294.0};
+
+/// Names of laws, by family; an empty name leaves the family out.
+struct Recipe {
+  std::string strength, eos;
+  bool viscosity = true;
+  bool heating = false;
+  bool track_deformation = false;  ///< a column F that the kinematics stage keeps
+};
+/// Every strength with every eos (or none, if it gives the whole stress), from the catalogue.
+std::vector<Recipe> all_recipes();
+std::string describe(const Recipe& recipe);
+
+class Body {
+ public:
+  /// `points` in consecutive batches of `batch_size`.
+  Body(const StageFactory& factory, const Recipe& recipe, int points, int batch_size);
+
+  const Layout& layout() const { return layout_; }
+  const std::vector<std::unique_ptr<Stage>>& stages() const { return stages_; }
+  int points() const { return points_; }
+
+  double& state(const char* field, int point, int component = 0);
+  double& local(const char* field, int point, int component = 0);
+
+  /// One step: padding is refreshed with copies of the last point, then every stage sees every
+  /// batch.
+  void step(double dt);
+
+  /// Every state and local value of a point, in column order, for comparison of bits.
+  std::vector<double> everything(int point);
+
+  Ledger ledger;
+  Fault fault;
+
+ private:
+  int slot(int point) const;
+  void pad();
+
+  Layout layout_;
+  std::vector<std::unique_ptr<Stage>> stages_;
+  int points_, batch_size_, groups_per_batch_, groups_;
+  std::vector<double> storage_;
+  double *state_, *local_, *zeros_;
+};
+
+/// Step gradients of a violent, smooth, reproducible motion.
+void set_motion(Body& body, int step, double size);
+
+}  // namespace krater::test

@@ -1,0 +1,282 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Enforces the layering of the sources: who may include whom, which library may appear where, and sizes.
+
+The rules are the tables below (reasons: src/README.md). Prints file:line: message and returns 1 on any error.
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+# Folder -> folders of include/krater and src it may include besides itself.
+LAYERS = {
+    "core": set(),
+    "points": {"core"},
+    "grid": {"core"},
+    "geometry": {"core"},
+    "materials": {"core", "points"},  # a law knows no dimension, mesh or method
+    "step": {"core", "points", "grid", "geometry", "materials"},
+    "fe": {"core", "points", "geometry", "materials"},  # step, fe and sph never include one another
+    "sph": {"core", "points", "geometry", "materials"},
+    "output": {"core", "points", "grid", "geometry"},
+    "scene": {"core", "points", "grid", "geometry", "materials", "step", "output"},
+    "app": {"core", "points", "grid", "geometry", "materials", "step", "output", "scene"},
+    "main": {"app", "core"},
+}
+
+# Header -> where it may appear: folders, or paths from the top of a folder's include/krater or src.
+LIBRARIES = [
+    (r"(CGAL|boost)/", ["geometry"]),
+    (r"yaml-cpp/", ["scene"]),
+    (r"(udunits2?|muParser)\.h", ["scene"]),
+    (r"(hdf5|hdf5_hl|H5\w+)\.h", ["output"]),
+    (r"omp\.h", ["core/parallel"]),
+    (r"(CLI|spdlog)/", ["app", "main"]),
+    (r"[xp]mmintrin\.h", ["core/simd", "core/parallel"]),  # the flush-to-zero flag of each thread
+    (r"(\w*intrin|cpuid|arm_neon|arm_sve)\.h", ["core/simd"]),
+    (r"krater/version_generated\.hpp", ["app/version"]),
+    (r"(Eigen|fmt)/", ["core", "points", "grid", "geometry", "materials", "step", "output", "scene",
+                       "app"]),
+    (r"(sys/(stat|resource|time|types|utsname)|unistd|fcntl|sched|pthread)\.h",
+     ["core", "output", "app"]),
+]
+STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cmath>: no folder, no suffix
+
+MAX_FILE_LINES = 400
+MAX_FUNCTION_LINES = 60
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(<[^>\n]+>|"[^"\n]+")', re.M)
+PRAGMA_OMP = re.compile(r"^[ \t]*#[ \t]*pragma[ \t]+omp[ \t]+(.*)$", re.M)
+
+
+class Checker:
+    def __init__(self, root):
+        self.root = pathlib.Path(root)
+        self.errors = []
+
+    def error(self, path, line, message):
+        self.errors.append(f"{path.relative_to(self.root)}:{line}: {message}")
+
+    def run(self):
+        for top in ("include", "src", "tests"):
+            files = [p for p in (self.root / top).rglob("*") if p.suffix in (".hpp", ".cpp", ".inl", ".h")]
+            for path in sorted(files):
+                self.check_file(path, top)
+        return self.errors
+
+    def place(self, path):
+        """The path below include/krater or src, without suffix; 'main' for src/main.cpp."""
+        parts = path.relative_to(self.root).parts
+        below = parts[2:] if parts[0] == "include" else parts[1:]
+        return "/".join(below).rsplit(".", 1)[0]
+
+    def check_file(self, path, top):
+        raw = path.read_text(encoding="utf-8")
+        text = blank_comments(raw)
+        code = blank_strings(text)
+        place = None if top == "tests" else self.place(path)
+        folder = None if place is None else place.split("/")[0]
+        if folder is not None and folder not in LAYERS:
+            self.error(path, 1, f"folder '{folder}' is unknown to the layering (known: {', '.join(LAYERS)})")
+            return
+        for match in INCLUDE.finditer(text):
+            self.check_include(path, line_of(text, match.start(1)), match.group(1), place, folder)
+        if top == "tests":
+            return
+        for match in PRAGMA_OMP.finditer(code):
+            self.check_omp(path, line_of(code, match.start(1)), match.group(1), place)
+        lines = raw.count("\n") + (not raw.endswith("\n"))
+        if lines > MAX_FILE_LINES:
+            self.error(path, lines, f"{lines} lines, more than {MAX_FILE_LINES}")
+        for line, length, name in functions(code):
+            if length > MAX_FUNCTION_LINES:
+                self.error(path, line, f"function {name} has {length} lines, more than {MAX_FUNCTION_LINES}")
+        if path.suffix == ".hpp":
+            if "#pragma once" not in code:
+                self.error(path, 1, "header without #pragma once")
+            for match in re.finditer(r"^using[ \t]+namespace\b", code, re.M):
+                self.error(path, line_of(code, match.start()), "using namespace at the top of a header")
+
+    def check_include(self, path, line, include, place, folder):
+        name = include[1:-1]
+        for pattern, places in LIBRARIES:
+            if re.match(pattern, name):
+                if folder is not None and not any(inside(place, p) for p in places):
+                    self.error(path, line, f"{include} may only be included in {', '.join(places)}")
+                return
+        if name.startswith("krater/") or include[0] == '"':
+            self.check_own(path, line, name, folder)
+        elif folder is None and name.startswith("doctest/"):
+            return
+        elif not STANDARD.fullmatch(name):
+            self.error(path, line, f"{include} is neither standard C++ nor a library known to "
+                                   "tools/check_includes.py")
+
+    def check_own(self, path, line, name, folder):
+        top = self.root / ("tests" if folder is None else "src")
+        candidates = [path.parent / name, top / name, self.root / "src" / name, self.root / "include" / name]
+        target = next((c for c in candidates if c.is_file()), None)
+        if target is None:
+            self.error(path, line, f"included file '{name}' does not exist")
+            return
+        target = target.resolve()
+        if folder is None or (self.root / "tests").resolve() in target.parents:
+            if folder is not None:
+                self.error(path, line, f"'{name}' is a test's file")
+            return
+        base = self.root.resolve()
+        parts = target.relative_to(base).parts
+        other = parts[2] if parts[0] == "include" else parts[1]
+        if other != folder and other not in LAYERS[folder]:
+            allowed = ", ".join(sorted(LAYERS[folder])) or "nothing else"
+            self.error(path, line, f"{folder} may not include {other} ({name}); allowed: {allowed}")
+
+    def check_omp(self, path, line, directive, place):
+        if inside(place, "core/parallel"):
+            return
+        if re.match(r"(declare[ \t]+)?simd\b", directive):
+            if "reduction" in directive:
+                self.error(path, line, "omp simd reduction: the sum's order would depend on the vector width")
+        else:
+            self.error(path, line, "OpenMP only in core/parallel (omp simd without reduction anywhere)")
+
+
+def inside(place, allowed):
+    """Whether place is the folder `allowed` or a file whose name begins with it ('core/simd' -> core/simd_math)."""
+    return place == allowed or place.startswith(allowed + "/") or ("/" in allowed and place.startswith(allowed))
+
+
+def line_of(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match.group(0))
+
+
+TOKEN = re.compile(r'R"(?P<d>[^()\\\s]{0,16})\(.*?\)(?P=d)"|"(?:[^"\\\n]|\\.)*"'
+                   r"|(?<![0-9a-zA-Z_])'(?:[^'\\\n]|\\.)+'|//(?:[^\n\\]|\\.|\\\n)*|/\*.*?\*/", re.S)
+
+
+def blank_comments(text):
+    return TOKEN.sub(lambda m: blank(m) if m.group(0).startswith("/") else m.group(0), text)
+
+
+def blank_strings(text):
+    """Blanks string and character literals of text without comments; keeps their quotes."""
+    return TOKEN.sub(lambda m: '"' + blank(m)[1:-1] + '"', text)
+
+
+def functions(code):
+    """Yields (line, length, name) of function bodies. A heuristic on braces: in namespaces and classes a brace
+    after a parameter list opens a function; all within it belongs to it."""
+    code = re.sub(r"^[ \t]*#(?:[^\n\\]|\\.|\\\n)*", blank, code, flags=re.M | re.S)
+    statement = ""
+    stack = []  # kinds of the open braces: scope, function, other
+    start = (0, "")
+    for match in re.finditer(r"[{};]|[^{};]+", code):
+        token = match.group(0)
+        nested = any(kind != "scope" for kind, _ in stack)
+        if token == "{":
+            kind = "other" if nested else brace_kind(statement)
+            if kind == "function":
+                start = (line_of(code, match.start()), function_name(statement))
+            stack.append((kind, statement))
+            if not nested and kind != "other":
+                statement = ""
+        elif token == "}":
+            kind, before = stack.pop() if stack else ("other", "")
+            if kind == "function":
+                yield start[0], line_of(code, match.start()) - start[0] + 1, start[1]
+            if not any(k != "scope" for k, _ in stack):
+                statement = before + "()" if kind == "other" else ""
+        elif not nested:
+            statement = "" if token == ";" else statement + token
+
+
+def brace_kind(statement):
+    text = re.sub(r"\[\[.*?\]\]|\balignas\s*\([^()]*\)|\b__attribute__\s*\(\(.*?\)\)", " ", statement, flags=re.S)
+    text = strip_templates(text).strip()
+    text = re.sub(r"^((public|private|protected)\s*:\s*)+", "", text)
+    if re.search(r"\bnamespace\b", text) or re.match(r'extern\s+"\s*"$', text):
+        return "scope"
+    if re.match(r"(inline\s+|static\s+|constexpr\s+|typedef\s+)*(class|struct|union|enum)\b[^()=]*$", text):
+        return "scope"
+    if "(" not in text or re.search(r"(?<![=!<>+\-*/])=\s*(\w|::|<|>)*$", text):
+        return "other"  # an initialiser: int a{..}, Table t = {..}
+    # A constructor's member initialised with braces: `X(int a) : a_{a}`.
+    if re.search(r"\)\s*(noexcept\s*)?:(?!:)", text) and re.search(r"[\w>]$", text) \
+            and not re.search(r"\b(noexcept|const|override|final)$", text):
+        return "other"
+    return "function"
+
+
+def strip_templates(text):
+    """Removes a leading template<...>, which may hold parentheses and the word class."""
+    text = text.strip()
+    while text.startswith("template"):
+        depth = 0
+        for i, char in enumerate(text):
+            depth += (char == "<") - (char == ">" and text[i - 1] != "-")
+            if char == ">" and depth == 0:
+                text = text[i + 1:].strip()
+                break
+        else:
+            return text
+    return text
+
+
+def function_name(statement):
+    names = re.findall(r"(operator\s*\(\)|operator\s*[^\s\w(]+|[~\w:]+)\s*(?=\()", strip_templates(statement))
+    names = [n for n in names if n not in ("noexcept", "requires", "decltype")]
+    return names[0].strip() if names else "?"
+
+
+def self_test():
+    """Plants one error of each kind and one long function among harmless code; returns what went unnoticed."""
+    long_body = "  x += 1;\n" * 60
+    planted = {
+        "include/krater/core/a.hpp": ('#pragma once\n#include <vector>\n#include "krater/points/p.hpp"\n', 1),
+        "include/krater/points/p.hpp": ("#include <CGAL/x.h>\nusing namespace std;\n", 3),
+        "src/core/parallel_for.cpp": ("#include <omp.h>\n#pragma omp parallel for\n", 0),
+        "src/step/b.cpp": ('#include "missing.hpp"\n#pragma omp parallel\n#pragma omp simd\n'
+                           "#pragma omp simd reduction(+ : s)\n// #include <hdf5.h>\n#include <hdf5.h>\n", 4),
+        "src/step/c.cpp": ("struct A {\n A(int a) : a_{a} {\n" + long_body + "}\n int a_ = {};\n};\n"
+                           "const int table[] = {\n" + "1,\n" * 70 + "};\n"
+                           "template <class T> requires(sizeof(T) > 1)\nint f(T x) noexcept {\n" + long_body +
+                           "}\nnamespace n {\nstruct alignas(64) S {\n" + "int i;\n" * 70 + "};\n"
+                           "int short_one() { return '{' + 1'000; }\n}\n", 2),
+        "src/app/d.cpp": ("int i;\n" * 401, 1),
+        "src/elsewhere/e.cpp": ("\n", 1),
+        "tests/unit/t.cpp": ('#include <doctest/doctest.h>\n#include <hdf5.h>\n#include "krater/core/z.hpp"\n', 1),
+    }
+    missed = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (text, _) in planted.items():
+            path = pathlib.Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        errors = Checker(folder).run()
+        for name, (_, expected) in planted.items():
+            found = [e for e in errors if e.startswith(name + ":")]
+            if len(found) != expected:
+                missed.append(f"{name}: {expected} errors planted, found: {found}")
+    return missed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--self-test", action="store_true", help="check this checker on planted errors")
+    parser.add_argument("--root", default=pathlib.Path(__file__).resolve().parent.parent)
+    options = parser.parse_args()
+    errors = self_test() if options.self_test else Checker(options.root).run()
+    for error in errors:
+        print(error)
+    print(f"check_includes: {len(errors)} errors")
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
