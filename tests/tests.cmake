@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tests, by layer (ctest labels unit, contract, verification, scene, style). One ctest entry per test
-# source file; the file's cases stand in TEST_SUITE("<layer>") and an entry that finds no case fails.
+# source file, by its folder; an entry that finds no test case fails.
 # Files named *_support.cpp are compiled with the tests and hold no cases.
 find_package(doctest CONFIG REQUIRED)
 
@@ -22,7 +22,7 @@ foreach(layer IN LISTS layers)
   foreach(file IN LISTS files)
     cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_LIST_DIR} OUTPUT_VARIABLE relative)
     string(REGEX REPLACE "(_test)?\\.cpp$" "" name ${relative})
-    add_test(NAME ${name} COMMAND krater_tests --no-colors --test-suite=${layer}*
+    add_test(NAME ${name} COMMAND krater_tests --no-colors
       --source-file=*/tests/${relative} WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
     set_tests_properties(${name} PROPERTIES LABELS ${layer} COST ${cost_${layer}} TIMEOUT 900
       ENVIRONMENT "${test_environment}" FAIL_REGULAR_EXPRESSION "test cases: +0 ")

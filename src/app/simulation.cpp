@@ -62,8 +62,10 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     kernel_data_.push_back(bodies_.back()->kernel_data());
   }
   const bool affine = scene.method.transfer == Transfer::tflip || scene.method.transfer == Transfer::apic;
-  kernels_.reset(kernel_factory(level).make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), affine));
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, *kernels_, kernel_data_);
+  const auto make = kernel_factory(level).make;
+  kernels_.reset(make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), affine));
+  plain_kernels_.reset(make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), false));
+  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, *kernels_, *plain_kernels_, kernel_data_);
   place_points();
   choose_first_step();
   const Totals start = totals();

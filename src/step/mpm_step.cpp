@@ -26,8 +26,8 @@ double alpha_of(const MethodOptions& m, double tflip) {
 }  // namespace
 
 MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, const Kernels& kernels,
-                 const std::vector<BodyKernelData>& bodies)
-    : method_{method}, grid_{grid}, boundary_{boundary}, kernels_{kernels}, bodies_{bodies}, velocity_from_kept_{bodies} {
+                 const Kernels& plain, const std::vector<BodyKernelData>& bodies)
+    : method_{method}, grid_{grid}, boundary_{boundary}, kernels_{kernels}, plain_{plain}, bodies_{bodies}, velocity_from_kept_{bodies} {
   for (BodyKernelData& body : velocity_from_kept_) body.columns.velocity = body.columns.grid_velocity;
   zeros_.reserve(9 * kLanes);
   cell_volume_ = std::pow(grid.geometry().h, grid.geometry().dimension);
@@ -45,7 +45,7 @@ double MpmStep::advance(double dt) {
 
 double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
-  particles_to_grid(bodies_, dt);
+  particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
@@ -58,13 +58,15 @@ double MpmStep::step_usl(double dt) {
 
 double MpmStep::step_musl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
-  particles_to_grid(bodies_, dt);
+  particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
   grid_to_particles(GatherPart::velocity_only, dt);
 
-  particles_to_grid(bodies_, dt);  // the new velocities with the old weights
+  // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L on top the strain
+  // would feed on itself (it blew up in the Taylor test); APIC's are smooth and need their L.
+  particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
   const BoundaryWork wall_again = boundary_.constrain();
   boundary_.mirror();
@@ -79,13 +81,13 @@ double MpmStep::step_musl(double dt) {
 
 double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
-  particles_to_grid(bodies_, dt);
+  particles_to_grid(kernels_, bodies_, dt);
   momentum(dt, 0);
   boundary_.constrain();
   boundary_.mirror();
   grid_to_particles(GatherPart::strain_only, dt);
 
-  particles_to_grid(bodies_, dt);
+  particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
@@ -132,12 +134,12 @@ void MpmStep::provide_memory() {
   removed_.resize(grid_.patches.size());
 }
 
-void MpmStep::particles_to_grid(const std::vector<BodyKernelData>& bodies, double dt) {
+void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies, double dt) {
   const SweepSettings s = settings(dt);
   for_each(grid_.patches.size(), [&](std::size_t p) {
     Patch& patch = grid_.patches[p];
     patch.result.fault = {};
-    kernels_.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
+    kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
   });
   throw_faults();
 }
@@ -194,7 +196,7 @@ void MpmStep::filter_velocity() {
   for (int order = 1; order < method_.xpic_order; ++order) {
     std::copy(nodes, nodes + total, increment);
     grid_to_particles(GatherPart::keep_only, 0);
-    particles_to_grid(velocity_from_kept_, 0);
+    particles_to_grid(plain_, velocity_from_kept_, 0);
     double unused = 0;
     momentum(unused, 0);
     boundary_.constrain();

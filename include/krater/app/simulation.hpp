@@ -71,7 +71,7 @@ class Simulation {
   std::vector<BodyKernelData> kernel_data_;
   BlockGrid grid_;
   BoundarySet boundary_;
-  std::unique_ptr<Kernels> kernels_;
+  std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
   double time_ = 0, dt_ = 0, dt_free_ = 0, min_step_ = 0;  ///< dt_free_: before clipping to output times
   double max_rate_ = 0;

@@ -24,9 +24,10 @@ struct StepFault {
 
 class MpmStep {
  public:
-  /// All references must outlive the step. `bodies[b]` belongs to patches with body == b.
+  /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`: the same kernels
+  /// without the affine part, for projections of point velocities alone.
   MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, const Kernels& kernels,
-          const std::vector<BodyKernelData>& bodies);
+          const Kernels& plain, const std::vector<BodyKernelData>& bodies);
 
   /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would move material by more
   /// than 0.3 cells (checked on the nodes, before a point is touched). Returns the step taken. Throws StepFault.
@@ -45,7 +46,7 @@ class MpmStep {
   struct GridEnergy {
     double before, after;
   };
-  void particles_to_grid(const std::vector<BodyKernelData>& bodies, double dt);
+  void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies, double dt);
   GridEnergy momentum(double& dt, double force_share);
   void halve_until_safe(double& dt, double max_change);
   void filter_velocity();
@@ -65,6 +66,7 @@ class MpmStep {
   BlockGrid& grid_;
   BoundarySet& boundary_;
   const Kernels& kernels_;
+  const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;
   std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
   Audit audit_;
