@@ -48,8 +48,10 @@ void Body::declare_method_columns(const Scene& scene) {
   const MethodOptions& m = scene.method;
   if (carries_affine(m.transfer)) layout_.state<field::AffineVelocity>(0, kMethod);
   if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
-  if (m.update == Update::musl || m.transfer == Transfer::xpic) layout_.state<field::GridVelocity>(0, kMethod);
-  const bool switched = m.cell_averaging || (m.transfer == Transfer::tflip && m.flip_fraction != m.flip_fraction_shock);
+  if (m.update == Update::musl || m.transfer == Transfer::xpic)
+    layout_.state<field::GridVelocity>(0, kMethod);
+  const bool switched = m.cell_averaging ||
+                        (m.transfer == Transfer::tflip && m.flip_fraction != m.flip_fraction_shock);
   if (switched) layout_.state<field::ShockIndicator>(0, kMethod);
   if (scene.body_force) {
     layout_.state<field::BodyAcceleration>(0, kMethod);
@@ -57,7 +59,8 @@ void Body::declare_method_columns(const Scene& scene) {
   } else if (wants(scene, field::ReferencePosition::info)) {
     layout_.state<field::ReferencePosition>(0, kMethod);
   }
-  if (wants(scene, field::DeformationGradient::info)) layout_.state<field::DeformationGradient>(0, kMethod);
+  if (wants(scene, field::DeformationGradient::info))
+    layout_.state<field::DeformationGradient>(0, kMethod);
   layout_.local_output<field::StepGradient>(kMethod);
   layout_.local_output<field::ExtraDilatation>(kMethod);
 }
@@ -69,11 +72,16 @@ void Body::add(std::string name, Stage* stage) {
 }
 
 void Body::add_stages(const StageFactory& factory) {
-  const MaterialConstants constants{material_->density, material_->shear_modulus, material_->initial_temperature};
+  const MaterialConstants constants{material_->density, material_->shear_modulus,
+                                    material_->initial_temperature};
   const auto add_law = [&](const std::optional<LawChoice>& choice, const char* family) {
-    if (choice) add(std::string{family} + ": " + choice->name, factory.make(choice->law, choice->values.data(), constants, layout_));
+    if (choice)
+      add(std::string{family} + ": " + choice->name,
+          factory.make(choice->law, choice->values.data(), constants, layout_));
   };
-  const bool hyperelastic = material_->strength && catalogue()[static_cast<std::size_t>(material_->strength->law)].whole_stress;
+  const bool hyperelastic =
+      material_->strength &&
+      catalogue()[static_cast<std::size_t>(material_->strength->law)].whole_stress;
   // A law that needs F must have declared it before the kinematics stage looks for it.
   if (hyperelastic) layout_.state<field::DeformationGradient>(0, kMethod);
   add("kinematics", factory.kinematics(layout_));
@@ -81,7 +89,8 @@ void Body::add_stages(const StageFactory& factory) {
   add_law(material_->strength, "strength");
   add_law(material_->eos, "eos");
   add_law(material_->heating, "heating");
-  if (material_->viscosity) q_lin_ = material_->viscosity->values.at(0), q_quad_ = material_->viscosity->values.at(1);
+  if (material_->viscosity)
+    q_lin_ = material_->viscosity->values.at(0), q_quad_ = material_->viscosity->values.at(1);
   add("signal speed", factory.signal_speed(q_lin_, q_quad_, layout_));
 }
 
@@ -105,9 +114,12 @@ BodyKernelData Body::kernel_data() const {
   c.pressure = state(field::Pressure::info), c.viscous = state(field::ViscousPressure::info);
   c.energy = state(field::InternalEnergy::info), c.sound_speed = state(field::SoundSpeed::info);
   c.indicator = state(field::ShockIndicator::info), c.half_width = state(field::HalfWidth::info);
-  c.body_acceleration = state(field::BodyAcceleration::info), c.grid_velocity = state(field::GridVelocity::info);
-  c.local_gradient = local(field::StepGradient::info), c.local_dilatation = local(field::ExtraDilatation::info);
-  c.local_signal = local(field::SignalSpeed::info), c.local_rate = local(field::DilatationRate::info);
+  c.body_acceleration = state(field::BodyAcceleration::info),
+  c.grid_velocity = state(field::GridVelocity::info);
+  c.local_gradient = local(field::StepGradient::info),
+  c.local_dilatation = local(field::ExtraDilatation::info);
+  c.local_signal = local(field::SignalSpeed::info),
+  c.local_rate = local(field::DilatationRate::info);
   data.stages = stage_pointers_.data();
   data.stage_count = static_cast<int>(stage_pointers_.size());
   return data;
@@ -132,15 +144,20 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   } catch (const std::invalid_argument& e) {
     throw InputError(options_->where + ": " + e.what());
   }
-  if (out.empty()) throw InputError(options_->where + ": no part of this body lies inside the grid's box; move the body or enlarge grid.box");
+  if (out.empty())
+    throw InputError(
+        options_->where +
+        ": no part of this body lies inside the grid's box; move the body or enlarge grid.box");
   return out;
 }
 
-void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id, std::vector<double>& record) const {
+void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
+                      std::vector<double>& record) const {
   const int dim = dimension(scene.frame);
   record.assign(static_cast<std::size_t>(layout_.stride() / kLanes), 0.0);
   for (const Column& c : layout_.columns())
-    for (int k = 0; k < c.components; ++k) record[static_cast<std::size_t>(c.offset / kLanes + k)] = c.initial;
+    for (int k = 0; k < c.components; ++k)
+      record[static_cast<std::size_t>(c.offset / kLanes + k)] = c.initial;
   const auto set = [&](const FieldInfo& field, int component, double value) {
     const int at = slot(field, component);
     if (at >= 0) record[static_cast<std::size_t>(at)] = value;

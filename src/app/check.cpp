@@ -11,14 +11,18 @@ namespace krater {
 
 namespace {
 
-// Point-steps per second and core of this code on a 2020s server core, for the estimate of the run's time only.
+// Point-steps per second and core of this code on a 2020s server core, for the estimate of the
+// run's time only.
 constexpr double kRate2d = 12e6, kRate3d = 6e6;
 
 void print_body(const Simulation& sim, const Body& body, int index) {
   const FillReport& f = body.fill_report();
   const Totals t = sim.totals(index);
-  fmt::print("body {}: material {}, {:.0f} points, mass {:.6g} kg (points {:.6g}), thinnest {:.1f} cells\n", body.name(),
-             body.material().name, t.count, f.measure_exact * body.material().density, t.mass, f.smallest_thickness_in_cells);
+  fmt::print(
+      "body {}: material {}, {:.0f} points, mass {:.6g} kg (points {:.6g}), thinnest {:.1f} "
+      "cells\n",
+      body.name(), body.material().name, t.count, f.measure_exact * body.material().density, t.mass,
+      f.smallest_thickness_in_cells);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
   fmt::print("\n  columns ({} bytes per point):", body.layout().stride());
@@ -31,13 +35,18 @@ void print_body(const Simulation& sim, const Body& body, int index) {
 void print_advice(const Scene& scene, double fastest) {
   for (const MaterialOptions& m : scene.materials) {
     if (fastest > 500 && m.eos && m.eos->name == "linear")
-      fmt::print("advice: {}: {:.0f} m/s with a linear equation of state; shocks need mie_gruneisen_shock\n", m.name, fastest);
+      fmt::print(
+          "advice: {}: {:.0f} m/s with a linear equation of state; shocks need "
+          "mie_gruneisen_shock\n",
+          m.name, fastest);
     if (fastest > 50 && !m.viscosity)
-      fmt::print("advice: {}: no viscosity block; shocks will ring (add viscosity: {{}})\n", m.name);
+      fmt::print("advice: {}: no viscosity block; shocks will ring (add viscosity: {{}})\n",
+                 m.name);
     if (fastest > 100 && m.strength && m.strength->name == "johnson_cook" && !m.heating)
       fmt::print("advice: {}: johnson_cook without heating: no thermal softening\n", m.name);
     if (fastest > 2000 && m.heating)
-      fmt::print("advice: {}: plastic_work heating misses shock heating above 2 km/s (theory 8)\n", m.name);
+      fmt::print("advice: {}: plastic_work heating misses shock heating above 2 km/s (theory 8)\n",
+                 m.name);
   }
 }
 
@@ -47,8 +56,9 @@ void print_check(const RunOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
   for (const std::string& note : scene.notes) fmt::print("note: {}\n", note);
   const Simulation sim{scene};
-  fmt::print("{}\nframe {}, cell {:g} m, {} blocks\n", scene.title.empty() ? options.scene : scene.title, name(scene.frame),
-             scene.grid.cell, sim.block_count());
+  fmt::print("{}\nframe {}, cell {:g} m, {} blocks\n",
+             scene.title.empty() ? options.scene : scene.title, name(scene.frame), scene.grid.cell,
+             sim.block_count());
   double fastest = 0, signal = 0;
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     print_body(sim, *sim.bodies()[b], static_cast<int>(b));
@@ -56,7 +66,8 @@ void print_check(const RunOptions& options) {
     fastest = std::max(fastest, t.mass > 0 ? std::sqrt(2 * t.kinetic / t.mass) : 0);
     signal = std::max(signal, sim.bodies()[b]->initial_sound_speed());
   }
-  const double steps = scene.time.end * (fastest + 1.35 * signal) / (scene.time.cfl * scene.grid.cell);
+  const double steps =
+      scene.time.end * (fastest + 1.35 * signal) / (scene.time.cfl * scene.grid.cell);
   const double work = steps * static_cast<double>(sim.point_count());
   fmt::print("estimate: {:.0f} steps, {:.0f} MB, {:.1f} s on one core\n", steps,
              1e-6 * sim.bytes_per_point() * static_cast<double>(sim.point_count()),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/command_line.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "krater/app/run.hpp"
 #include "krater/app/version.hpp"
@@ -14,22 +14,29 @@ namespace {
 
 void add_scene_options(CLI::App* command, RunOptions& options) {
   command->add_option("scene", options.scene, "scene file (YAML)")->required();
-  command->add_option("--set", options.overrides, "override a value: path=value, e.g. --set grid.cell=0.2mm (repeatable)")
+  command
+      ->add_option("--set", options.overrides,
+                   "override a value: path=value, e.g. --set grid.cell=0.2mm (repeatable)")
       ->take_all()
       ->allow_extra_args(false);
 }
 
-int dispatch(const CLI::App& run_command, const CLI::App& check_command, const RunOptions& options, const std::string& model) {
+int dispatch(const CLI::App& run_command, const CLI::App& check_command, const RunOptions& options,
+             const std::string& model) {
   try {
     if (run_command.parsed()) return run(options);
-    if (check_command.parsed()) print_check(options);
-    else print_models(model.empty() ? nullptr : model.c_str());
+    if (check_command.parsed())
+      print_check(options);
+    else
+      print_models(model.empty() ? nullptr : model.c_str());
     return kDone;
   } catch (const InputError& e) {
     fmt::print(stderr, "{}\n", e.what());
     return kBadInput;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "krater: not enough memory for this scene: use a larger grid.cell or fewer points_per_direction\n");
+    fmt::print(stderr,
+               "krater: not enough memory for this scene: use a larger grid.cell or fewer "
+               "points_per_direction\n");
     return kBadInput;
   } catch (const std::exception& e) {
     fmt::print(stderr, "krater: {}\n", e.what());
@@ -43,19 +50,23 @@ int command_line(int argc, char** argv) {
   CLI::App app{"Krater: impact by the Material Point Method"};
   app.name("krater");
   const Version v = version();
-  app.set_version_flag("--version", fmt::format("krater {} ({}, {}, {})", v.program, v.revision, v.compiler, v.build));
+  app.set_version_flag("--version", fmt::format("krater {} ({}, {}, {})", v.program, v.revision,
+                                                v.compiler, v.build));
   app.require_subcommand(1);
   RunOptions options;
   std::string model;
   CLI::App* run_command = app.add_subcommand("run", "compute a scene");
   add_scene_options(run_command, options);
   run_command->add_option("-o,--output", options.output, "results folder (default: SCENE_out)");
-  run_command->add_option("-j,--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 4096));
+  run_command->add_option("-j,--threads", options.threads, "threads (default: all)")
+      ->check(CLI::Range(1, 4096));
   run_command->add_option("--restart", options.restart, "continue from a checkpoint.h5");
   run_command->add_flag("--quiet", options.quiet, "no progress, no notes");
-  CLI::App* check_command = app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
+  CLI::App* check_command =
+      app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
   add_scene_options(check_command, options);
-  CLI::App* models_command = app.add_subcommand("models", "list the material laws, or describe one");
+  CLI::App* models_command =
+      app.add_subcommand("models", "list the material laws, or describe one");
   models_command->add_option("name", model, "law");
   try {
     app.parse(argc, argv);

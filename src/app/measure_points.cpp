@@ -15,7 +15,8 @@ MeasureContext make_context(const Scene& scene, const GridGeometry& geometry) {
   c.frame = scene.frame;
   c.h = scene.grid.cell;
   c.min = scene.grid.min;
-  for (int a = 0; a < geometry.dimension; ++a) c.max[static_cast<std::size_t>(a)] = geometry.upper(a);
+  for (int a = 0; a < geometry.dimension; ++a)
+    c.max[static_cast<std::size_t>(a)] = geometry.upper(a);
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t s = 0; s < 2; ++s) c.boundary[a][s] = scene.grid.boundary[a][s].kind;
   c.points_per_direction = scene.method.points_per_direction;
@@ -38,7 +39,8 @@ BodyPoints gather_points(const Simulation& sim, int index) {
     out.mass.push_back(sim.value(patch, i, m));
     out.density.push_back(sim.value(patch, i, rho));
     for (const Column& c : body.layout().columns())
-      if (c.components == 1) out.scalars[c.field->name].push_back(sim.value(patch, i, c.offset / kLanes));
+      if (c.components == 1)
+        out.scalars[c.field->name].push_back(sim.value(patch, i, c.offset / kLanes));
   }
   return out;
 }
@@ -64,8 +66,9 @@ std::vector<double> evaluate_measures(const Simulation& sim) {
 
 Json measures_json(const Simulation& sim, const std::vector<double>& values) {
   static const std::map<MeasureKind, const char*> kinds{
-      {MeasureKind::extent, "extent"},     {MeasureKind::max, "max"},   {MeasureKind::min, "min"},
-      {MeasureKind::diameter, "diameter"}, {MeasureKind::mean, "mean"}, {MeasureKind::mean_velocity, "mean_velocity"},
+      {MeasureKind::extent, "extent"},  {MeasureKind::max, "max"},
+      {MeasureKind::min, "min"},        {MeasureKind::diameter, "diameter"},
+      {MeasureKind::mean, "mean"},      {MeasureKind::mean_velocity, "mean_velocity"},
       {MeasureKind::maximum, "maximum"}};
   const Scene& scene = sim.scene();
   Json out;

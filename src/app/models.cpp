@@ -13,10 +13,14 @@ namespace {
 
 const char* range_text(Range r) {
   switch (r) {
-    case Range::positive: return "> 0";
-    case Range::non_negative: return ">= 0";
-    case Range::fraction: return "0 .. 1";
-    case Range::any: break;
+    case Range::positive:
+      return "> 0";
+    case Range::non_negative:
+      return ">= 0";
+    case Range::fraction:
+      return "0 .. 1";
+    case Range::any:
+      break;
   }
   return "any";
 }
@@ -25,15 +29,16 @@ void print_law(const LawInfo& law) {
   fmt::print("{}: {}\n  {}\n  {}\n", law.family, law.name, law.equation, law.reference);
   for (const ParameterInfo& p : law.parameters)
     fmt::print("  {:<14} [{}] {}{}  {}{}\n", p.key, p.unit, range_text(p.range),
-               std::isnan(p.fallback) ? ", required" : fmt::format(", default {:g}", p.fallback), p.meaning,
-               p.alias != nullptr ? fmt::format(" (also: {})", p.alias) : "");
+               std::isnan(p.fallback) ? ", required" : fmt::format(", default {:g}", p.fallback),
+               p.meaning, p.alias != nullptr ? fmt::format(" (also: {})", p.alias) : "");
 }
 
 }  // namespace
 
 void print_models(const char* name) {
   if (name == nullptr) {
-    for (const LawInfo& law : catalogue()) fmt::print("{:<10} {:<26} {}\n", law.family, law.name, law.equation);
+    for (const LawInfo& law : catalogue())
+      fmt::print("{:<10} {:<26} {}\n", law.family, law.name, law.equation);
     return;
   }
   bool found = false;

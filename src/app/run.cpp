@@ -21,7 +21,9 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void on_signal(int) { interrupted = 1; }
 
-std::string default_output(const std::string& scene) { return std::filesystem::path(scene).stem().string() + "_out"; }
+std::string default_output(const std::string& scene) {
+  return std::filesystem::path(scene).stem().string() + "_out";
+}
 
 /// Times of the next outputs; survives a restart because it depends on the time reached only.
 class Schedule {
@@ -46,7 +48,8 @@ class Runner {
       : options_{options},
         scene_{std::move(scene)},
         sim_{scene_},
-        results_{options.output.empty() ? default_output(options.scene) : options.output, !options.restart.empty()} {}
+        results_{options.output.empty() ? default_output(options.scene) : options.output,
+                 !options.restart.empty()} {}
 
   int go();
 
@@ -55,7 +58,8 @@ class Runner {
   void write_history();
   void write_frame();
   Json summary(const std::string& status, double seconds) const;
-  int finish(const std::string& status, const std::string& message, int code, const Progress& progress);
+  int finish(const std::string& status, const std::string& message, int code,
+             const Progress& progress);
 
   RunOptions options_;
   Scene scene_;
@@ -82,7 +86,8 @@ void Runner::begin() {
   const Checkpoint checkpoint = read_checkpoint(options_.restart);
   const CheckpointBlob* text = checkpoint.find("scene");
   if (text != nullptr && text->text != scene_.resolved)
-    fmt::print(stderr, "krater: note: the scene differs from the one the checkpoint was written with\n");
+    fmt::print(stderr,
+               "krater: note: the scene differs from the one the checkpoint was written with\n");
   sim_.restore(checkpoint);
   const CheckpointBlob* counters = checkpoint.find("output");
   if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
@@ -118,13 +123,18 @@ int Runner::go() {
       if (interrupted != 0) {
         save_state();
         progress.finish();
-        return finish("interrupted", "interrupted: checkpoint written, continue with --restart " + results_.path() + "/checkpoint.h5",
+        return finish("interrupted",
+                      "interrupted: checkpoint written, continue with --restart " +
+                          results_.path() + "/checkpoint.h5",
                       kInterrupted, progress);
       }
       sim_.step(std::min(frames.next(), scene_.time.end));
-      if (history.due(sim_.time()) || scene_.output.history <= 0 || sim_.done()) write_history(), history.advance(sim_.time());
+      if (history.due(sim_.time()) || scene_.output.history <= 0 || sim_.done())
+        write_history(), history.advance(sim_.time());
       if (frames.due(sim_.time()) || sim_.done()) write_frame(), frames.advance(sim_.time());
-      if (scene_.output.checkpoint_wall > 0 && progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall) checkpoint();
+      if (scene_.output.checkpoint_wall > 0 &&
+          progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall)
+        checkpoint();
       progress.show();
     }
   } catch (const NumericalError& e) {
@@ -151,7 +161,12 @@ Json Runner::summary(const std::string& status, double seconds) const {
   j["bytes_per_point"] = Json::of(sim_.bytes_per_point());
   j["measures"] = measures_json(sim_, evaluate_measures(sim_));
   j["audit"] = audit_json(sim_);
-  // Machine and clock: everything above is the same for any number of threads, everything below is not.
+  Json& limiters = j["dt_limiters"];
+  limiters["0"] = Json::of("wave speed");
+  limiters["1"] = Json::of("material velocity");
+  limiters["2"] = Json::of("volume change");
+  // Machine and clock: everything above is the same for any number of threads, everything below is
+  // not.
   Json& machine = j["machine"];
   char host[256] = {};
   gethostname(host, sizeof(host) - 1);
@@ -159,7 +174,8 @@ Json Runner::summary(const std::string& status, double seconds) const {
   machine["threads"] = Json::of(static_cast<std::int64_t>(threads()));
   machine["instruction_set"] = Json::of(std::string{name_of(sim_.isa_level())});
   machine["wall_seconds"] = Json::of(seconds);
-  const double work = static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
+  const double work =
+      static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
   machine["point_steps_per_second"] = Json::of(seconds > 0 ? work / seconds : 0.0);
   Json& program = j["program"];
   program["version"] = Json::of(v.program);
@@ -169,13 +185,16 @@ Json Runner::summary(const std::string& status, double seconds) const {
   return j;
 }
 
-int Runner::finish(const std::string& status, const std::string& message, int code, const Progress& progress) {
+int Runner::finish(const std::string& status, const std::string& message, int code,
+                   const Progress& progress) {
   Json s = summary(status, progress.seconds());
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
   results_.flush();
   if (!message.empty()) fmt::print(stderr, "krater: {}\n", message);
-  if (!options_.quiet) fmt::print(stderr, "krater: {} after {} steps, results in {}\n", status, sim_.steps(), results_.path());
+  if (!options_.quiet)
+    fmt::print(stderr, "krater: {} after {} steps, results in {}\n", status, sim_.steps(),
+               results_.path());
   return code;
 }
 

@@ -14,9 +14,9 @@ namespace krater {
 
 namespace {
 
-constexpr double kGrowth = 1.05;        // of the time step from one step to the next
-constexpr double kFirstStepShare = 0.2; // viscosity and the first shock are not known yet
-constexpr double kMinStepShare = 1e-6;  // of the first step
+constexpr double kGrowth = 1.05;         // of the time step from one step to the next
+constexpr double kFirstStepShare = 0.2;  // viscosity and the first shock are not known yet
+constexpr double kMinStepShare = 1e-6;   // of the first step
 
 GridGeometry make_geometry(const Scene& scene) {
   GridGeometry g;
@@ -26,25 +26,32 @@ GridGeometry make_geometry(const Scene& scene) {
   for (int a = 0; a < g.dimension; ++a) {
     const auto i = static_cast<std::size_t>(a);
     g.min[i] = scene.grid.min[i];
-    g.cells[i] = static_cast<int>(std::lround((scene.grid.max[i] - scene.grid.min[i]) / scene.grid.cell));
+    g.cells[i] =
+        static_cast<int>(std::lround((scene.grid.max[i] - scene.grid.min[i]) / scene.grid.cell));
   }
   return g;
 }
 
 KernelFrame kernel_frame(Frame f) {
   switch (f) {
-    case Frame::axisymmetric: return KernelFrame::axisymmetric;
-    case Frame::plane_strain: return KernelFrame::plane;
-    case Frame::cartesian_3d: break;
+    case Frame::axisymmetric:
+      return KernelFrame::axisymmetric;
+    case Frame::plane_strain:
+      return KernelFrame::plane;
+    case Frame::cartesian_3d:
+      break;
   }
   return KernelFrame::space;
 }
 
 KernelShape kernel_shape(Shape s) {
   switch (s) {
-    case Shape::linear: return KernelShape::linear;
-    case Shape::gimp: return KernelShape::gimp;
-    case Shape::quadratic_bspline: break;
+    case Shape::linear:
+      return KernelShape::linear;
+    case Shape::gimp:
+      return KernelShape::gimp;
+    case Shape::quadratic_bspline:
+      break;
   }
   return KernelShape::quadratic_bspline;
 }
@@ -61,11 +68,13 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     bodies_.push_back(std::make_unique<Body>(scene, static_cast<int>(b), stage_factory(level)));
     kernel_data_.push_back(bodies_.back()->kernel_data());
   }
-  const bool affine = scene.method.transfer == Transfer::tflip || scene.method.transfer == Transfer::apic;
+  const bool affine =
+      scene.method.transfer == Transfer::tflip || scene.method.transfer == Transfer::apic;
   const auto make = kernel_factory(level).make;
   kernels_.reset(make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), affine));
   plain_kernels_.reset(make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), false));
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, *kernels_, *plain_kernels_, kernel_data_);
+  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, *kernels_, *plain_kernels_,
+                                    kernel_data_);
   place_points();
   choose_first_step();
   const Totals start = totals();
@@ -83,7 +92,8 @@ void Simulation::place_points() {
     const int stride = bodies_[b]->layout().stride();
     for (std::size_t id = 0; id < seeds.size(); ++id) {
       const BlockKey key = block_of(geometry_, seeds[id].x.data());
-      const auto [at, is_new] = where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches.size()));
+      const auto [at, is_new] =
+          where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches.size()));
       if (is_new) {
         grid_.patches.emplace_back();
         grid_.patches.back().key = key;
@@ -109,39 +119,49 @@ void Simulation::choose_first_step() {
   for (const Patch& p : grid_.patches) {
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
-    signal = std::max(signal, body.initial_sound_speed() * (body.q_lin() + std::sqrt(1 + body.q_lin() * body.q_lin())));
+    signal = std::max(signal, body.initial_sound_speed() *
+                                  (body.q_lin() + std::sqrt(1 + body.q_lin() * body.q_lin())));
     for (int i = 0; i < p.count; ++i)
       for (int a = 0; a < geometry_.dimension; ++a) {
-        const double* record = p.records.data() + static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
+        const double* record = p.records.data() + static_cast<std::size_t>(i / kLanes) *
+                                                      static_cast<std::size_t>(c.stride);
         fastest = std::max(fastest, std::abs(record[c.velocity + kLanes * a + i % kLanes]));
       }
   }
   // The closing speed of two bodies is at most twice the greatest speed.
   max_rate_ = (2 * fastest + signal) * geometry_.inv_h;
-  dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step : kFirstStepShare * scene_.time.cfl / max_rate_;
+  dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step
+                                        : kFirstStepShare * scene_.time.cfl / max_rate_;
   min_step_ = scene_.time.min_step > 0 ? scene_.time.min_step : kMinStepShare * dt_free_;
 }
 
 const char* Simulation::limiter() const {
   switch (limiter_kind_) {
-    case 0: return "wave speed";
-    case 1: return "material velocity";
-    default: return "volume change";
+    case 0:
+      return "wave speed";
+    case 1:
+      return "material velocity";
+    default:
+      return "volume change";
   }
 }
 
 double Simulation::next_step(double until) {
   double dt = scene_.time.cfl / max_rate_;
-  if (steps_ > 0) dt = std::min(dt, kGrowth * dt_free_);
-  else dt = dt_free_;
+  if (steps_ > 0)
+    dt = std::min(dt, kGrowth * dt_free_);
+  else
+    dt = dt_free_;
   if (scene_.time.max_step > 0) dt = std::min(dt, scene_.time.max_step);
   if (!(dt >= min_step_)) {
     const int p = step_->limiting_patch();
-    const std::string point = p >= 0 && p < static_cast<int>(grid_.patches.size())
-                                  ? describe_point(p, grid_.patches[static_cast<std::size_t>(p)].result.limiting_point)
-                                  : std::string{"no point"};
-    throw NumericalError(fmt::format("time step vanished: {:.3e} s < {:.3e} s at time {:.6e} s, limited by {} of {}", dt,
-                                     min_step_, time_, limiter(), point));
+    const std::string point =
+        p >= 0 && p < static_cast<int>(grid_.patches.size())
+            ? describe_point(p, grid_.patches[static_cast<std::size_t>(p)].result.limiting_point)
+            : std::string{"no point"};
+    throw NumericalError(
+        fmt::format("time step vanished: {:.3e} s < {:.3e} s at time {:.6e} s, limited by {} of {}",
+                    dt, min_step_, time_, limiter(), point));
   }
   dt_free_ = dt;
   const double left = until - time_;
@@ -163,15 +183,20 @@ void Simulation::step(double until) {
   time_ = reached ? until : time_ + dt_;
   max_rate_ = step_->max_rate();
   const int p = step_->limiting_patch();
-  if (p >= 0 && p < static_cast<int>(grid_.patches.size())) limiter_kind_ = grid_.patches[static_cast<std::size_t>(p)].result.limiter;
+  if (p >= 0 && p < static_cast<int>(grid_.patches.size()))
+    limiter_kind_ = grid_.patches[static_cast<std::size_t>(p)].result.limiter;
 }
 
 void Simulation::apply_body_force() {
   for (Patch& patch : grid_.patches) {
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-    const int reference = bodies_[static_cast<std::size_t>(patch.body)]->layout().find(field::ReferencePosition::info.name)->offset;
+    const int reference = bodies_[static_cast<std::size_t>(patch.body)]
+                              ->layout()
+                              .find(field::ReferencePosition::info.name)
+                              ->offset;
     for (int i = 0; i < patch.count; ++i) {
-      double* record = patch.records.data() + static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
+      double* record = patch.records.data() +
+                       static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
       Triple x{}, X{};
       for (int a = 0; a < geometry_.dimension; ++a) {
         x[static_cast<std::size_t>(a)] = record[c.position + kLanes * a + i % kLanes];

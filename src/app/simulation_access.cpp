@@ -13,13 +13,20 @@ namespace {
 
 const char* text_of(FaultKind kind) {
   switch (kind) {
-    case FaultKind::not_finite_input: return "not finite before the step, or outside its block";
-    case FaultKind::not_finite_velocity: return "grid velocity not finite";
-    case FaultKind::inverted: return "turned inside out (det f <= 0)";
-    case FaultKind::not_finite_state: return "stress, pressure, energy or sound speed not finite after the update";
-    case FaultKind::no_convergence: return "constitutive update did not converge";
-    case FaultKind::moved_too_far: return "moved by more than a block in one step";
-    case FaultKind::none: break;
+    case FaultKind::not_finite_input:
+      return "not finite before the step, or outside its block";
+    case FaultKind::not_finite_velocity:
+      return "grid velocity not finite";
+    case FaultKind::inverted:
+      return "turned inside out (det f <= 0)";
+    case FaultKind::not_finite_state:
+      return "stress, pressure, energy or sound speed not finite after the update";
+    case FaultKind::no_convergence:
+      return "constitutive update did not converge";
+    case FaultKind::moved_too_far:
+      return "moved by more than a block in one step";
+    case FaultKind::none:
+      break;
   }
   return "unknown";
 }
@@ -35,7 +42,8 @@ std::size_t Simulation::point_count() const {
 double Simulation::bytes_per_point() const {
   double doubles = 0;
   for (const Patch& p : grid_.patches)
-    doubles += static_cast<double>(p.records.size() + p.tile.size() + p.beta.size()) + sizeof(Patch) / 8.0;
+    doubles +=
+        static_cast<double>(p.records.size() + p.tile.size() + p.beta.size()) + sizeof(Patch) / 8.0;
   doubles += static_cast<double>(grid_.node_blocks.size()) * kBlockNodes * kNodeDoubles;
   return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
 }
@@ -43,8 +51,9 @@ double Simulation::bytes_per_point() const {
 double Simulation::value(int patch, int point, int slot) const {
   const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
   const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
-  return p.records.data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
-                          static_cast<std::size_t>(kLanes * slot + point % kLanes)];
+  return p.records
+      .data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
+              static_cast<std::size_t>(kLanes * slot + point % kLanes)];
 }
 
 void Simulation::set_value(int patch, int point, int slot, double x) {
@@ -77,17 +86,22 @@ Totals Simulation::totals(int body) const {
     if (body >= 0 && patch.body != body) continue;
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
     for (int i = 0; i < patch.count; ++i) {
-      const auto at = [&](int offset, int k) { return value(static_cast<int>(p), i, offset / kLanes + k); };
+      const auto at = [&](int offset, int k) {
+        return value(static_cast<int>(p), i, offset / kLanes + k);
+      };
       const double m = at(c.mass, 0);
       t.count += 1;
       t.mass += m;
       t.kinetic += point_kinetic(patch, i, c, geometry_);
       if (c.energy >= 0) t.internal += m * at(c.energy, 0);
-      for (int a = 0; a < dim; ++a) t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
+      for (int a = 0; a < dim; ++a)
+        t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
       // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
-      t.angular_momentum += m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
+      t.angular_momentum +=
+          m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
       if (c.affine >= 0)
-        t.angular_momentum += m * 0.25 * geometry_.h * geometry_.h * (at(c.affine, dim) - at(c.affine, 1));
+        t.angular_momentum +=
+            m * 0.25 * geometry_.h * geometry_.h * (at(c.affine, dim) - at(c.affine, 1));
     }
   }
   return t;
@@ -100,7 +114,8 @@ std::string Simulation::describe_point(int patch, int point) const {
   for (int a = 0; a < geometry_.dimension; ++a)
     position += fmt::format("{}{} = {:.6e} m", a > 0 ? ", " : "", axis_name(scene_.frame, a),
                             value(patch, point, body.slot(field::Position::info, a)));
-  return fmt::format("body '{}', point {:.0f} at {}", body.name(), value(patch, point, body.slot(field::Id::info)), position);
+  return fmt::format("body '{}', point {:.0f} at {}", body.name(),
+                     value(patch, point, body.slot(field::Id::info)), position);
 }
 
 void Simulation::fail(const StepFault& fault) const {
@@ -112,10 +127,12 @@ void Simulation::fail(const StepFault& fault) const {
   for (const Column& c : bodies_[static_cast<std::size_t>(patch.body)]->layout().columns())
     for (int k = 0; k < c.components && field == "all fields finite"; ++k) {
       const double x = value(fault.patch, point, c.offset / kLanes + k);
-      if (!std::isfinite(x)) field = fmt::format("field '{}' component {} is {}", c.field->name, k, x);
+      if (!std::isfinite(x))
+        field = fmt::format("field '{}' component {} is {}", c.field->name, k, x);
     }
-  throw NumericalError(fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(fault.patch, point),
-                                   text_of(fault.fault.kind), field, time_, steps_));
+  throw NumericalError(fmt::format("{}: {}; {}; time {:.6e} s, step {}",
+                                   describe_point(fault.patch, point), text_of(fault.fault.kind),
+                                   field, time_, steps_));
 }
 
 Checkpoint Simulation::save() const {
@@ -152,7 +169,8 @@ Checkpoint Simulation::save() const {
         std::vector<double> x;
         for (std::size_t p = 0; p < grid_.patches.size(); ++p)
           if (grid_.patches[p].body == static_cast<int>(b))
-            for (int i = 0; i < grid_.patches[p].count; ++i) x.push_back(value(static_cast<int>(p), i, c.offset / kLanes + k));
+            for (int i = 0; i < grid_.patches[p].count; ++i)
+              x.push_back(value(static_cast<int>(p), i, c.offset / kLanes + k));
         numbers(fmt::format("{}/{}/{}", bodies_[b]->name(), c.field->name, k), std::move(x));
       }
   return out;
@@ -162,14 +180,17 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   const auto find = [&](const std::string& name) -> const CheckpointBlob& {
     for (const CheckpointBlob& b : checkpoint.blobs)
       if (b.name == name) return b;
-    throw InputError("checkpoint has no '" + name + "': it belongs to another scene (a body, law or method differs)");
+    throw InputError("checkpoint has no '" + name +
+                     "': it belongs to another scene (a body, law or method differs)");
   };
   const auto& clock = find("clock").doubles;
-  time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), min_step_ = clock.at(3), max_rate_ = clock.at(4);
+  time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), min_step_ = clock.at(3),
+  max_rate_ = clock.at(4);
   steps_ = find("counters").integers.at(0);
   limiter_kind_ = static_cast<int>(find("counters").integers.at(1));
   const auto& audit = find("audit").doubles;
-  if (audit.size() != sizeof(Audit) / sizeof(double)) throw InputError("checkpoint was written by another version of krater");
+  if (audit.size() != sizeof(Audit) / sizeof(double))
+    throw InputError("checkpoint was written by another version of krater");
   std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
 
   const auto& patches = find("patches").integers;
@@ -186,12 +207,16 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     for (const Column& c : bodies_[b]->layout().columns())
       for (int k = 0; k < c.components; ++k) {
-        const std::vector<double>& x = find(fmt::format("{}/{}/{}", bodies_[b]->name(), c.field->name, k)).doubles;
+        const std::vector<double>& x =
+            find(fmt::format("{}/{}/{}", bodies_[b]->name(), c.field->name, k)).doubles;
         std::size_t at = 0;
         for (std::size_t p = 0; p < grid_.patches.size(); ++p)
           if (grid_.patches[p].body == static_cast<int>(b))
-            for (int i = 0; i < grid_.patches[p].count; ++i) set_value(static_cast<int>(p), i, c.offset / kLanes + k, x.at(at++));
-        if (at != x.size()) throw InputError("checkpoint: column '" + std::string{c.field->name} + "' has the wrong length");
+            for (int i = 0; i < grid_.patches[p].count; ++i)
+              set_value(static_cast<int>(p), i, c.offset / kLanes + k, x.at(at++));
+        if (at != x.size())
+          throw InputError("checkpoint: column '" + std::string{c.field->name} +
+                           "' has the wrong length");
       }
   for (Patch& p : grid_.patches) {
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;

@@ -25,8 +25,9 @@ const std::vector<std::string>& vector_names(Frame f) {
 
 /// Columns that serve the method, not the user.
 bool is_internal(const char* name) {
-  static const std::set<std::string> names{"id", "position", "affine_velocity", "shock_indicator", "half_width",
-                                           "grid_velocity", "body_acceleration", "deviatoric_stress"};
+  static const std::set<std::string> names{
+      "id",         "position",      "affine_velocity",   "shock_indicator",
+      "half_width", "grid_velocity", "body_acceleration", "deviatoric_stress"};
   return names.contains(name);
 }
 
@@ -58,7 +59,12 @@ FieldArray column_array(const Simulation& sim, const Column& c, const Points& po
 void add_stress(const Simulation& sim, const Body& body, const Points& points, BodyFrame& out) {
   const int s = body.slot(field::DeviatoricStress::info), p = body.slot(field::Pressure::info);
   if (s < 0) return;
-  FieldArray stress{"stress", "Pa", "Cauchy stress, tension positive, without viscosity", 6, tensor_names(sim.scene().frame), {}};
+  FieldArray stress{"stress",
+                    "Pa",
+                    "Cauchy stress, tension positive, without viscosity",
+                    6,
+                    tensor_names(sim.scene().frame),
+                    {}};
   FieldArray mises{"von_mises", "Pa", "von Mises stress sqrt(3/2 s:s)", 1, {}, {}};
   for (const auto& [patch, i] : points) {
     const double pressure = p < 0 ? 0 : sim.value(patch, i, p);
@@ -83,7 +89,8 @@ double deviatoric_energy(const Simulation& sim) {
   double sum = 0;
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     const Body& body = *sim.bodies()[b];
-    const int s = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
+    const int s = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info),
+              rho = body.slot(field::Density::info);
     const double G = body.material().shear_modulus;
     if (s < 0 || G <= 0) continue;
     for (std::size_t p = 0; p < sim.grid().patches.size(); ++p) {
@@ -95,7 +102,8 @@ double deviatoric_energy(const Simulation& sim) {
           const double x = sim.value(static_cast<int>(p), i, s + k);
           square += (k < 3 ? 1 : 2) * x * x;
         }
-        sum += sim.value(static_cast<int>(p), i, m) * square / (4 * G * sim.value(static_cast<int>(p), i, rho));
+        sum += sim.value(static_cast<int>(p), i, m) * square /
+               (4 * G * sim.value(static_cast<int>(p), i, rho));
       }
     }
   }
@@ -117,11 +125,13 @@ OutputFrame make_frame(const Simulation& sim, int number) {
     for (const auto& [patch, i] : points) {
       bf.ids.push_back(static_cast<std::int64_t>(sim.value(patch, i, id)));
       std::array<double, 3> space{};
-      for (int a = 0; a < dimension(frame); ++a) space[static_cast<std::size_t>(tensor_axis(frame, a))] = sim.value(patch, i, x + a);
+      for (int a = 0; a < dimension(frame); ++a)
+        space[static_cast<std::size_t>(tensor_axis(frame, a))] = sim.value(patch, i, x + a);
       bf.coordinates.insert(bf.coordinates.end(), space.begin(), space.end());
     }
     for (const Column& c : body.layout().columns())
-      if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name)) bf.fields.push_back(column_array(sim, c, points));
+      if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
+        bf.fields.push_back(column_array(sim, c, points));
     add_stress(sim, body, points, bf);
     out.bodies.push_back(std::move(bf));
   }
@@ -135,6 +145,7 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
   add(row, "time", "s", sim.time());
   add(row, "step", "1", static_cast<double>(sim.steps()));
   add(row, "dt", "s", sim.dt());
+  add(row, "dt_limiter", "1", sim.limiter_kind());
   add(row, "kinetic_energy", "J", t.kinetic);
   add(row, "internal_energy", "J", t.internal);
   add(row, "total_energy", "J", t.kinetic + t.internal);
@@ -151,9 +162,11 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
   add(row, "mass", "kg", t.mass);
   const Frame frame = sim.scene().frame;
   for (int k = 0; k < dimension(frame); ++k)
-    add(row, "momentum_" + std::string{axis_name(frame, k)}, "kg m/s", t.momentum[static_cast<std::size_t>(k)]);
+    add(row, "momentum_" + std::string{axis_name(frame, k)}, "kg m/s",
+        t.momentum[static_cast<std::size_t>(k)]);
   for (int k = 0; k < dimension(frame); ++k)
-    add(row, "wall_impulse_" + std::string{axis_name(frame, k)}, "N s", a.wall_impulse[static_cast<std::size_t>(k)]);
+    add(row, "wall_impulse_" + std::string{axis_name(frame, k)}, "N s",
+        a.wall_impulse[static_cast<std::size_t>(k)]);
   add(row, "angular_momentum", "kg m^2/s", t.angular_momentum);
   add(row, "removed_points", "1", a.removed_points);
   add(row, "wall_columns", "1", a.wall_columns);
@@ -161,8 +174,8 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
     const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
     add(row, sim.bodies()[b]->name() + ".kinetic_energy", "J", body.kinetic);
     for (int k = 0; k < dimension(frame); ++k)
-      add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)}, "m/s",
-          body.mass > 0 ? body.momentum[static_cast<std::size_t>(k)] / body.mass : 0.0);
+      add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)},
+          "m/s", body.mass > 0 ? body.momentum[static_cast<std::size_t>(k)] / body.mass : 0.0);
   }
   for (std::size_t i = 0; i < measures.size(); ++i)
     add(row, sim.scene().measures[i].name, measure_unit(sim.scene().measures[i]), measures[i]);
@@ -173,7 +186,8 @@ Json audit_json(const Simulation& sim) {
   const Audit& a = sim.audit();
   const Totals t = sim.totals();
   Json j;
-  const double start = a.initial_kinetic + a.initial_internal, residual = a.residual(t.kinetic, t.internal);
+  const double start = a.initial_kinetic + a.initial_internal,
+               residual = a.residual(t.kinetic, t.internal);
   j["initial_energy"] = Json::of(start);
   j["kinetic_energy"] = Json::of(t.kinetic);
   j["internal_energy"] = Json::of(t.internal);

@@ -5,6 +5,8 @@
 
 namespace krater {
 
-Version version() { return {KRATER_VERSION, KRATER_GIT_REVISION, KRATER_COMPILER, KRATER_BUILD_TYPE}; }
+Version version() {
+  return {KRATER_VERSION, KRATER_GIT_REVISION, KRATER_COMPILER, KRATER_BUILD_TYPE};
+}
 
 }  // namespace krater

@@ -8,7 +8,8 @@ namespace krater {
 
 BlockKey shifted(const BlockKey& key, int slot, int dimension) {
   BlockKey k = key;
-  for (int a = 0; a < dimension; ++a) k.i[static_cast<std::size_t>(a)] += slot_offset(slot, a, dimension);
+  for (int a = 0; a < dimension; ++a)
+    k.i[static_cast<std::size_t>(a)] += slot_offset(slot, a, dimension);
   return k;
 }
 
@@ -16,7 +17,8 @@ namespace {
 
 BlockKey at_corner(const BlockKey& key, int corner, int sign, int dimension) {
   BlockKey k = key;
-  for (int a = 0; a < dimension; ++a) k.i[static_cast<std::size_t>(a)] += sign * corner_offset(corner, a);
+  for (int a = 0; a < dimension; ++a)
+    k.i[static_cast<std::size_t>(a)] += sign * corner_offset(corner, a);
   return k;
 }
 
@@ -37,16 +39,19 @@ BlockKey block_of(const GridGeometry& geometry, const double* position) {
 }
 
 int BlockGrid::find_patch(const BlockKey& key, int body) const {
-  const auto at = std::lower_bound(patches.begin(), patches.end(), key, [body](const Patch& p, const BlockKey& k) {
-    return p.key != k ? p.key < k : p.body < body;
-  });
-  return at != patches.end() && at->key == key && at->body == body ? static_cast<int>(at - patches.begin()) : -1;
+  const auto at = std::lower_bound(
+      patches.begin(), patches.end(), key,
+      [body](const Patch& p, const BlockKey& k) { return p.key != k ? p.key < k : p.body < body; });
+  return at != patches.end() && at->key == key && at->body == body
+             ? static_cast<int>(at - patches.begin())
+             : -1;
 }
 
 int BlockGrid::find_node_block(const BlockKey& key) const {
   const auto at = std::lower_bound(node_blocks.begin(), node_blocks.end(), key,
                                    [](const NodeBlock& n, const BlockKey& k) { return n.key < k; });
-  return at != node_blocks.end() && at->key == key ? static_cast<int>(at - node_blocks.begin()) : -1;
+  return at != node_blocks.end() && at->key == key ? static_cast<int>(at - node_blocks.begin())
+                                                   : -1;
 }
 
 double* BlockGrid::find_node(const std::array<int, 3>& storage_index) const {
@@ -65,7 +70,8 @@ double* BlockGrid::find_node(const std::array<int, 3>& storage_index) const {
 
 void BlockGrid::rebuild(bool drop_empty) {
   if (drop_empty) std::erase_if(patches, [](const Patch& p) { return p.count == 0; });
-  if (!std::is_sorted(patches.begin(), patches.end(), before)) std::sort(patches.begin(), patches.end(), before);
+  if (!std::is_sorted(patches.begin(), patches.end(), before))
+    std::sort(patches.begin(), patches.end(), before);
   make_node_blocks();
   link_patches();
 }
@@ -81,7 +87,8 @@ void BlockGrid::make_node_blocks() {
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (int c = 0; c < corners; ++c)
       overlaps.push_back({at_corner(patches[p].key, c, 1, dimension), {static_cast<int>(p), c}});
-  std::stable_sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) { return a.key < b.key; });
+  std::stable_sort(overlaps.begin(), overlaps.end(),
+                   [](const Overlap& a, const Overlap& b) { return a.key < b.key; });
 
   node_blocks.clear();
   tile_refs.clear();
@@ -96,7 +103,8 @@ void BlockGrid::make_node_blocks() {
   }
   constexpr std::size_t per_block = kBlockNodes * kNodeDoubles;
   node_memory_.reserve(node_blocks.size() * per_block);
-  for (std::size_t n = 0; n < node_blocks.size(); ++n) node_blocks[n].nodes = node_memory_.data() + n * per_block;
+  for (std::size_t n = 0; n < node_blocks.size(); ++n)
+    node_blocks[n].nodes = node_memory_.data() + n * per_block;
 }
 
 void BlockGrid::link_patches() {
@@ -105,9 +113,11 @@ void BlockGrid::link_patches() {
     patch.tile.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles);
     patch.beta.reserve(kBlockNodes);
     for (int c = 0; c < corner_count(dimension); ++c)
-      patch.node_blocks[static_cast<std::size_t>(c)] = find_node_block(at_corner(patch.key, c, 1, dimension));
+      patch.node_blocks[static_cast<std::size_t>(c)] =
+          find_node_block(at_corner(patch.key, c, 1, dimension));
     for (int s = 0; s < neighbour_count(dimension); ++s)
-      patch.neighbours[static_cast<std::size_t>(s)] = find_patch(shifted(patch.key, s, dimension), patch.body);
+      patch.neighbours[static_cast<std::size_t>(s)] =
+          find_patch(shifted(patch.key, s, dimension), patch.body);
   }
 }
 

@@ -5,7 +5,8 @@ namespace krater {
 
 void Audit::book_step(const StepEnergies& e, double wall, double correction,
                       const std::array<double, 3>& impulse, int columns) {
-  const double work = e.grid_after - e.grid_before + correction - step_external;  // of the internal forces
+  const double work =
+      e.grid_after - e.grid_before + correction - step_external;  // of the internal forces
   transfer_in += e.kinetic - e.grid_before;
   internal_work += work;
   external_work += step_external;

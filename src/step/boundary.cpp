@@ -8,18 +8,19 @@ namespace krater {
 
 namespace {
 
-// Fill a column may lack and still count as touching: quadrature noise of a few points per cell is several per cent,
-// a gap of g cells costs 1.5 g; 0.25 closes gaps below 0.15 cells.
+// Fill a column may lack and still count as touching: quadrature noise of a few points per cell is
+// several per cent, a gap of g cells costs 1.5 g; 0.25 closes gaps below 0.15 cells.
 constexpr double kFillTolerance = 0.25;
 
-constexpr int kMass = 0, kMomentum = 1, kForce = 4, kVolume = 7;   // after the scatter
-constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;           // after the momentum update
+constexpr int kMass = 0, kMomentum = 1, kForce = 4, kVolume = 7;  // after the scatter
+constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;          // after the momentum update
 
 double kinetic(const double* node) {
   return 0.5 * node[kNodeMass] * (node[0] * node[0] + node[1] * node[1] + node[2] * node[2]);
 }
 
-/// Forces work over the mean of v- and the final v+: a plane changes the final v+, and so the forces' work.
+/// Forces work over the mean of v- and the final v+: a plane changes the final v+, and so the
+/// forces' work.
 void set_velocity(double* node, int axis, double value, double raw_mass, BoundaryWork& sum) {
   const double change = value - node[kVelocity + axis];
   sum.force_correction += 0.5 * raw_mass * node[kChange + axis] * change;
@@ -34,7 +35,8 @@ void BoundarySet::relink(BlockGrid& grid) {
   planes_.clear();
   for (int axis = 0; axis < geometry_.dimension; ++axis)
     for (int side = 0; side < 2; ++side) {
-      const Boundary& condition = conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)];
+      const Boundary& condition =
+          conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)];
       if (condition.kind == BoundaryKind::open) continue;
       planes_.push_back({axis, side == 0 ? 1.0 : -1.0, &condition, {}});
       add_columns(grid, planes_.back(), side);
@@ -47,13 +49,15 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane, int side) const {
   const int inward = side == 0 ? 1 : -1;
   for (NodeBlock& block : grid.node_blocks) {
     const int start = block.key.i[static_cast<unsigned>(plane.axis)] * edge;
-    for (int i = plane_index - 1; i <= plane_index + 1; ++i)  // ghost, plane or inner node in this block
+    for (int i = plane_index - 1; i <= plane_index + 1;
+         ++i)  // ghost, plane or inner node in this block
       if (i >= start && i < start + edge) block.at_boundary = true;
     if (plane_index < start || plane_index >= start + edge) continue;
     for (int n = 0; n < kBlockNodes; ++n) {
       std::array<int, 3> index{};
       for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)
-        index[static_cast<unsigned>(a)] = block.key.i[static_cast<unsigned>(a)] * edge + rest % edge;
+        index[static_cast<unsigned>(a)] =
+            block.key.i[static_cast<unsigned>(a)] * edge + rest % edge;
       if (index[static_cast<unsigned>(plane.axis)] != plane_index) continue;
       std::array<int, 3> ghost = index, inner = index;
       ghost[static_cast<unsigned>(plane.axis)] -= inward;
@@ -99,7 +103,8 @@ void BoundarySet::constrain_wall(const Plane& plane, const Column& c, BoundaryWo
   const double m_g = c.ghost[kNodeMass], m_0 = c.plane[kNodeMass], m_1 = c.inner[kNodeMass];
   if (m_0 <= 0) return;
   const double push = -plane.inward * (2 * m_g * c.ghost[n] + m_0 * c.plane[n]);
-  const bool touches = 2 * c.plane[kVolume] > (1 - kFillTolerance) * (c.inner[kVolume] + c.ghost[kVolume]);
+  const bool touches =
+      2 * c.plane[kVolume] > (1 - kFillTolerance) * (c.inner[kVolume] + c.ghost[kVolume]);
   if (push <= 0 || !touches) return;
   ++sum.columns_in_contact;
   sum.work -= kinetic(c.ghost) + kinetic(c.plane) + kinetic(c.inner);
@@ -107,14 +112,16 @@ void BoundarySet::constrain_wall(const Plane& plane, const Column& c, BoundaryWo
   const double together = m_1 + m_g;
   std::array<double, 3> joint{};  // velocity of the folded inner node
   for (int a = 0; a < 3; ++a)
-    joint[static_cast<unsigned>(a)] = (m_1 * c.inner[a] + (a == n ? -1.0 : 1.0) * m_g * c.ghost[a]) / together;
+    joint[static_cast<unsigned>(a)] =
+        (m_1 * c.inner[a] + (a == n ? -1.0 : 1.0) * m_g * c.ghost[a]) / together;
   const double mu = plane.condition->friction;
   const auto slowed = [mu, n](const double* v, double normal_impulse, double mass, int a) {
     double slip = 0;
     for (int b = 0; b < 3; ++b)
       if (b != n) slip += v[b] * v[b];
     slip = std::sqrt(slip);
-    const double loss = mass > 0 && slip > 0 ? std::min(1.0, mu * normal_impulse / (mass * slip)) : 0.0;
+    const double loss =
+        mass > 0 && slip > 0 ? std::min(1.0, mu * normal_impulse / (mass * slip)) : 0.0;
     return v[a] * (1 - loss);
   };
   const double J_0 = std::max(0.0, -plane.inward * m_0 * c.plane[n]);
@@ -122,7 +129,8 @@ void BoundarySet::constrain_wall(const Plane& plane, const Column& c, BoundaryWo
   const std::array<double, 3> before{c.plane[0], c.plane[1], c.plane[2]};
   for (int a = 0; a < 3; ++a) {
     const double plane_v = a == n ? 0.0 : slowed(before.data(), J_0, m_0, a);
-    const double inner_v = a == n ? joint[static_cast<unsigned>(a)] : slowed(joint.data(), J_1, together, a);
+    const double inner_v =
+        a == n ? joint[static_cast<unsigned>(a)] : slowed(joint.data(), J_1, together, a);
     set_velocity(c.plane, a, plane_v, m_0, sum);
     set_velocity(c.inner, a, inner_v, m_1, sum);
     set_velocity(c.ghost, a, a == n ? -inner_v : inner_v, m_g, sum);
@@ -137,7 +145,8 @@ void BoundarySet::constrain_velocity(const Plane& plane, const Column& c, Bounda
   for (double* node : {c.ghost, c.plane}) {
     sum.work -= kinetic(node);
     for (int a = 0; a < 3; ++a)
-      set_velocity(node, a, plane.condition->velocity[static_cast<unsigned>(a)], node[kNodeMass], sum);
+      set_velocity(node, a, plane.condition->velocity[static_cast<unsigned>(a)], node[kNodeMass],
+                   sum);
     sum.work += kinetic(node);
   }
 }

@@ -13,9 +13,12 @@ Kernels::~Kernels() = default;
 
 const char* name_of(IsaLevel level) {
   switch (level) {
-    case IsaLevel::v4: return "v4 (AVX-512)";
-    case IsaLevel::v3: return "v3 (AVX2)";
-    case IsaLevel::portable: break;
+    case IsaLevel::v4:
+      return "v4 (AVX-512)";
+    case IsaLevel::v3:
+      return "v3 (AVX2)";
+    case IsaLevel::portable:
+      break;
   }
   return "portable";
 }
@@ -27,17 +30,23 @@ IsaLevel best_isa_level() {
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) best = IsaLevel::v3;
 #endif
 #if defined(KRATER_HAVE_V4)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512cd"))
     best = IsaLevel::v4;
 #endif
   const char* wish = std::getenv("KRATER_ISA");
   if (wish == nullptr) return best;
   const std::string_view name{wish};
-  const IsaLevel asked = name == "portable" ? IsaLevel::portable : name == "v3" ? IsaLevel::v3 : IsaLevel::v4;
+  const IsaLevel asked = name == "portable" ? IsaLevel::portable
+                         : name == "v3"     ? IsaLevel::v3
+                                            : IsaLevel::v4;
   if (name != "portable" && name != "v3" && name != "v4")
-    throw InputError("KRATER_ISA=" + std::string{name} + " in the environment: known are portable, v3, v4");
-  if (asked > best) throw InputError("KRATER_ISA=" + std::string{name} + ": this processor or build does not have it");
+    throw InputError("KRATER_ISA=" + std::string{name} +
+                     " in the environment: known are portable, v3, v4");
+  if (asked > best)
+    throw InputError("KRATER_ISA=" + std::string{name} +
+                     ": this processor or build does not have it");
   return asked;
 }
 

@@ -4,6 +4,8 @@
 namespace krater::inline KRATER_ISA {
 
 Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine);
-Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine) { return make_transfer_kernels<Axisymmetric>(shape, affine); }
+Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine) {
+  return make_transfer_kernels<Axisymmetric>(shape, affine);
+}
 
 }  // namespace krater::inline KRATER_ISA

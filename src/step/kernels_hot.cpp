@@ -12,9 +12,12 @@ namespace {
 
 Kernels* make(KernelFrame frame, KernelShape shape, bool affine) {
   switch (frame) {
-    case KernelFrame::axisymmetric: return make_axisymmetric_kernels(shape, affine);
-    case KernelFrame::plane: return make_plane_kernels(shape, affine);
-    case KernelFrame::space: break;
+    case KernelFrame::axisymmetric:
+      return make_axisymmetric_kernels(shape, affine);
+    case KernelFrame::plane:
+      return make_plane_kernels(shape, affine);
+    case KernelFrame::space:
+      break;
   }
   return make_space_kernels(shape, affine);
 }

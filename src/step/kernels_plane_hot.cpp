@@ -4,6 +4,8 @@
 namespace krater::inline KRATER_ISA {
 
 Kernels* make_plane_kernels(KernelShape shape, bool affine);
-Kernels* make_plane_kernels(KernelShape shape, bool affine) { return make_transfer_kernels<Cartesian<2>>(shape, affine); }
+Kernels* make_plane_kernels(KernelShape shape, bool affine) {
+  return make_transfer_kernels<Cartesian<2>>(shape, affine);
+}
 
 }  // namespace krater::inline KRATER_ISA

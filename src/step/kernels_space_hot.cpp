@@ -4,6 +4,8 @@
 namespace krater::inline KRATER_ISA {
 
 Kernels* make_space_kernels(KernelShape shape, bool affine);
-Kernels* make_space_kernels(KernelShape shape, bool affine) { return make_transfer_kernels<Cartesian<3>>(shape, affine); }
+Kernels* make_space_kernels(KernelShape shape, bool affine) {
+  return make_transfer_kernels<Cartesian<3>>(shape, affine);
+}
 
 }  // namespace krater::inline KRATER_ISA

@@ -12,8 +12,9 @@ namespace {
 
 /// Component k of point i in AoSoA storage.
 double& at(Patch& patch, int stride, int offset, int i) {
-  return patch.records.data()[static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(stride) +
-                              static_cast<std::size_t>(offset + i % kLanes)];
+  return patch.records
+      .data()[static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(stride) +
+              static_cast<std::size_t>(offset + i % kLanes)];
 }
 
 void copy_point(Patch& patch, int stride, int from, int to) {
@@ -29,26 +30,31 @@ void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry, 
   v = -v;
 }
 
-void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int i, Removed& removed) {
+void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int i,
+           Removed& removed) {
   const double m = at(patch, c.stride, c.mass, i);
   removed.count += 1;
   removed.mass += m;
   removed.kinetic += point_kinetic(patch, i, c, geometry);
   if (c.energy >= 0) removed.internal += m * at(patch, c.stride, c.energy, i);
   for (int a = 0; a < geometry.dimension; ++a)
-    removed.momentum[static_cast<unsigned>(a)] += m * at(patch, c.stride, c.velocity + kLanes * a, i);
+    removed.momentum[static_cast<unsigned>(a)] +=
+        m * at(patch, c.stride, c.velocity + kLanes * a, i);
 }
 
 enum class Fate { stays, goes, removed };
 
 /// Puts a point back inside closed sides, then says where it belongs.
-Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary, const PointColumns& c, int i,
-           int& slot, Removed& removed) {
+Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+           const PointColumns& c, int i, int& slot, Removed& removed) {
   slot = 0;
   bool here = true;
   for (int a = 0; a < geometry.dimension; ++a) {
     double x = at(patch, c.stride, c.position + kLanes * a, i);
-    const bool low = x < geometry.min[static_cast<unsigned>(a)], high = geometry.storage(x, a) > geometry.cells[static_cast<unsigned>(a)] + 1.0;
+    const bool low =
+        x<geometry.min[static_cast<unsigned>(a)], high = geometry.storage(x, a)> geometry
+            .cells[static_cast<unsigned>(a)] +
+        1.0;
     if (low || high) {
       if (boundary.is_open(a, low ? 0 : 1)) return Fate::removed;
       reflect(patch, c, geometry, a, i);
@@ -57,7 +63,8 @@ Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& bounda
     }
   }
   double position[3];
-  for (int a = 0; a < geometry.dimension; ++a) position[a] = at(patch, c.stride, c.position + kLanes * a, i);
+  for (int a = 0; a < geometry.dimension; ++a)
+    position[a] = at(patch, c.stride, c.position + kLanes * a, i);
   const BlockKey key = block_of(geometry, position);
   for (int a = 0; a < geometry.dimension; ++a) {
     const int offset = key.i[static_cast<unsigned>(a)] - patch.key.i[static_cast<unsigned>(a)];
@@ -80,8 +87,10 @@ void post(Patch& patch, int stride, int slot, int i) {
 
 }  // namespace
 
-double point_kinetic(const Patch& patch, int i, const PointColumns& c, const GridGeometry& geometry) {
-  const double* record = patch.records.data() + static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
+double point_kinetic(const Patch& patch, int i, const PointColumns& c,
+                     const GridGeometry& geometry) {
+  const double* record = patch.records.data() +
+                         static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
   const int lane = i % kLanes, dimension = geometry.dimension;
   double twice = 0;
   for (int a = 0; a < dimension; ++a) {
@@ -109,8 +118,10 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
       int slot = 0;
       const Fate fate = judge(patch, geometry, boundary, columns, i, slot, removed);
       if (fate == Fate::stays) continue;
-      if (fate == Fate::goes) post(patch, columns.stride, slot, i);
-      else tally(patch, columns, geometry, i, removed);
+      if (fate == Fate::goes)
+        post(patch, columns.stride, slot, i);
+      else
+        tally(patch, columns, geometry, i, removed);
       holes.push_back(i);
     }
   }
@@ -132,7 +143,8 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
 
 void append(Patch& patch, const double* point, int stride) {
   const int i = patch.count++;
-  patch.records.reserve(static_cast<std::size_t>(patch.groups()) * static_cast<std::size_t>(stride));
+  patch.records.reserve(static_cast<std::size_t>(patch.groups()) *
+                        static_cast<std::size_t>(stride));
   for (int k = 0; k < stride; k += kLanes) at(patch, stride, k, i) = point[k / kLanes];
 }
 
@@ -168,7 +180,8 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
       const Outbox& box = grid.patches[static_cast<unsigned>(source)].outbox;
       if (((box.used >> towards_us) & 1U) == 0) continue;
       for (std::size_t k = 0; k < box.slots.size(); ++k)
-        if (box.slots[k] == towards_us) append(patch, box.records.data() + k * static_cast<std::size_t>(width), stride);
+        if (box.slots[k] == towards_us)
+          append(patch, box.records.data() + k * static_cast<std::size_t>(width), stride);
     }
     if (patch.count > 0) pad(patch, stride, body.columns.mass);
   });

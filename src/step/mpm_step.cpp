@@ -10,34 +10,52 @@ namespace krater {
 
 namespace {
 
-// A step is halved when the change of velocity alone would move material by more than this share of a cell.
+// A step is halved when the change of velocity alone would move material by more than this share of
+// a cell.
 constexpr double kMaxShare = 0.3;
 
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
-    case Transfer::tflip: return tflip;
-    case Transfer::flip: return 1;
+    case Transfer::tflip:
+      return tflip;
+    case Transfer::flip:
+      return 1;
     case Transfer::apic:
-    case Transfer::xpic: break;
+    case Transfer::xpic:
+      break;
   }
   return 0;
 }
 
 }  // namespace
 
-MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, const Kernels& kernels,
-                 const Kernels& plain, const std::vector<BodyKernelData>& bodies)
-    : method_{method}, grid_{grid}, boundary_{boundary}, kernels_{kernels}, plain_{plain}, bodies_{bodies}, velocity_from_kept_{bodies} {
-  for (BodyKernelData& body : velocity_from_kept_) body.columns.velocity = body.columns.grid_velocity;
+MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
+                 const Kernels& kernels, const Kernels& plain,
+                 const std::vector<BodyKernelData>& bodies)
+    : method_{method},
+      grid_{grid},
+      boundary_{boundary},
+      kernels_{kernels},
+      plain_{plain},
+      bodies_{bodies},
+      velocity_from_kept_{bodies} {
+  for (BodyKernelData& body : velocity_from_kept_)
+    body.columns.velocity = body.columns.grid_velocity;
   zeros_.reserve(9 * kLanes);
   cell_volume_ = std::pow(grid.geometry().h, grid.geometry().dimension);
 }
 
 double MpmStep::advance(double dt) {
   switch (method_.update) {
-    case Update::usl: dt = step_usl(dt); break;
-    case Update::musl: dt = step_musl(dt); break;
-    case Update::usf: dt = step_usf(dt); break;
+    case Update::usl:
+      dt = step_usl(dt);
+      break;
+    case Update::musl:
+      dt = step_musl(dt);
+      break;
+    case Update::usf:
+      dt = step_usf(dt);
+      break;
   }
   migrate();
   return dt;
@@ -50,9 +68,10 @@ double MpmStep::step_usl(double dt) {
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
   if (method_.transfer == Transfer::xpic) filter_velocity();
-  grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all, dt);
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction, wall.impulse,
-                   wall.columns_in_contact);
+  grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
+                    dt);
+  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
+                   wall.impulse, wall.columns_in_contact);
   return dt;
 }
 
@@ -64,16 +83,17 @@ double MpmStep::step_musl(double dt) {
   boundary_.mirror();
   grid_to_particles(GatherPart::velocity_only, dt);
 
-  // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L on top the strain
-  // would feed on itself (it blew up in the Taylor test); APIC's are smooth and need their L.
+  // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
+  // on top the strain would feed on itself (it blew up in the Taylor test); APIC's are smooth and
+  // need their L.
   particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
   const BoundaryWork wall_again = boundary_.constrain();
   boundary_.mirror();
   grid_to_particles(GatherPart::strain_move, dt);
   audit_.transfer_out += grid.after + wall.work - again.before;  // the detour over the points
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction, wall.impulse,
-                   wall.columns_in_contact);
+  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
+                   wall.impulse, wall.columns_in_contact);
   audit_.transfer_out += again.after - (grid.after + wall.work) + wall_again.work;
   audit_.wall_work += wall_again.work;
   return dt;
@@ -92,8 +112,8 @@ double MpmStep::step_usf(double dt) {
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
   grid_to_particles(GatherPart::velocity_move, dt);
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction, wall.impulse,
-                   wall.columns_in_contact);
+  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
+                   wall.impulse, wall.columns_in_contact);
   return dt;
 }
 
@@ -110,7 +130,8 @@ SweepSettings MpmStep::settings(double dt) const {
 
 SweepScratch MpmStep::scratch() {
   ThreadMemory& m = memory_[static_cast<unsigned>(thread_index())];
-  return {m.halo.data(), m.local.data(), m.cells.data(), m.pressures.data(), m.leavers.data(), zeros_.data()};
+  return {m.halo.data(),      m.local.data(),   m.cells.data(),
+          m.pressures.data(), m.leavers.data(), zeros_.data()};
 }
 
 void MpmStep::relink() {
@@ -134,7 +155,8 @@ void MpmStep::provide_memory() {
   removed_.resize(grid_.patches.size());
 }
 
-void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies, double dt) {
+void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
+                                double dt) {
   const SweepSettings s = settings(dt);
   for_each(grid_.patches.size(), [&](std::size_t p) {
     Patch& patch = grid_.patches[p];
@@ -148,14 +170,17 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   for_each(grid_.node_blocks.size(), [&](std::size_t n) {
     NodeBlock& block = grid_.node_blocks[n];
     kernels_.sum_tiles(grid_, block);
-    if (!block.at_boundary) kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
+    if (!block.at_boundary)
+      kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
   });
   boundary_.fold();
   for (NodeBlock& block : grid_.node_blocks)
     if (block.at_boundary) kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
   double max_change = 0;
-  for (const NodeBlock& block : grid_.node_blocks) max_change = std::max(max_change, block.sums.max_change);
-  if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h) halve_until_safe(dt, max_change);
+  for (const NodeBlock& block : grid_.node_blocks)
+    max_change = std::max(max_change, block.sums.max_change);
+  if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
+    halve_until_safe(dt, max_change);
   GridEnergy energy{0, 0};
   for (const NodeBlock& block : grid_.node_blocks) {
     energy.before += block.sums.kinetic_before;
@@ -171,7 +196,8 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   audit_.retries += 1;
   for (NodeBlock& block : grid_.node_blocks) {
     block.sums.kinetic_after = 0;
-    for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles; node += kNodeDoubles) {
+    for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
+         node += kNodeDoubles) {
       double speed2 = 0;
       for (int a = 0; a < 3; ++a) {
         node[a] -= (1 - share) * node[4 + a];
@@ -184,7 +210,8 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
 }
 
 void MpmStep::filter_velocity() {
-  // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn (2017), FMPM form.
+  // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
+  // (2017), FMPM form.
   const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
   const std::size_t total = grid_.node_blocks.size() * block_doubles;
   filtered_.reserve(2 * total);
@@ -212,7 +239,8 @@ void MpmStep::filter_velocity() {
 
 void MpmStep::grid_to_particles(GatherPart part, double dt) {
   const SweepSettings s = settings(dt);
-  const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only && part != GatherPart::strain_only;
+  const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
+                     part != GatherPart::strain_only;
   for_each(grid_.patches.size(), [&](std::size_t p) {
     Patch& patch = grid_.patches[p];
     const BodyKernelData& body = bodies_[static_cast<unsigned>(patch.body)];
@@ -224,7 +252,8 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
       removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, body.columns, w.leavers);
   });
   throw_faults();
-  if (part != GatherPart::keep_only) combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
+  if (part != GatherPart::keep_only)
+    combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
 }
 
 void MpmStep::combine_patches(bool forces_worked) {
@@ -247,9 +276,12 @@ void MpmStep::throw_faults() const {
 }
 
 void MpmStep::migrate() {
-  for (const Removed& r : removed_) audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
-  if (deliver(grid_, bodies_)) relink();
-  else provide_memory();  // patches may have grown
+  for (const Removed& r : removed_)
+    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
+  if (deliver(grid_, bodies_))
+    relink();
+  else
+    provide_memory();  // patches may have grown
 }
 
 }  // namespace krater

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/body.hpp
-/// A body put together from the scene: the stages its material calls for, the columns they ask for, its points.
+/// A body put together from the scene: the stages its material calls for, the columns they ask for,
+/// its points.
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +38,8 @@ class Body {
   /// Seeds of the body inside the domain; throws InputError when there are none.
   std::vector<SeedPoint> seeds(const Scene& scene);
   /// A new point as one record of stride/8 doubles.
-  void make_point(const Scene& scene, const SeedPoint& seed, std::size_t id, std::vector<double>& record) const;
+  void make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
+                  std::vector<double>& record) const;
   /// Offset in a point's record (doubles), -1 if the column does not exist.
   int slot(const FieldInfo& field, int component = 0) const;
 

@@ -11,8 +11,8 @@ namespace krater {
 class Progress {
  public:
   Progress(const Simulation& sim, bool quiet);
-  void show();    ///< when it is time
-  void finish();  ///< ends the line
+  void show();             ///< when it is time
+  void finish();           ///< ends the line
   double seconds() const;  ///< of wall clock since construction
 
  private:

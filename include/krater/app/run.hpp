@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/run.hpp
-/// `krater run`: step a scene to its end, writing frames, history, checkpoints and the summary on the way.
+/// `krater run`: step a scene to its end, writing frames, history, checkpoints and the summary on
+/// the way.
 #include <string>
 #include <vector>
 

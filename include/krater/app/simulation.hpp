@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/simulation.hpp
-/// A scene assembled and stepped: bodies, grid, boundaries, kernels of the best instruction set, time-step control.
-/// Knows nothing of files; what it hands out are the plain structs of output/results.hpp.
+/// A scene assembled and stepped: bodies, grid, boundaries, kernels of the best instruction set,
+/// time-step control. Knows nothing of files; what it hands out are the plain structs of
+/// output/results.hpp.
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ namespace krater {
 struct Totals {
   double count = 0, mass = 0, kinetic = 0, internal = 0;
   std::array<double, 3> momentum{};
-  double angular_momentum = 0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
+  double angular_momentum =
+      0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
 };
 
 class Simulation {
@@ -36,6 +38,9 @@ class Simulation {
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
   const char* limiter() const;  ///< what limits the time step
+  int limiter_kind() const {
+    return limiter_kind_;
+  }  ///< 0 wave speed, 1 material velocity, 2 volume change
 
   IsaLevel isa_level() const { return level_; }
   std::size_t point_count() const;
@@ -54,7 +59,8 @@ class Simulation {
   void set_value(int patch, int point, int slot, double x);
 
   Checkpoint save() const;
-  void restore(const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
+  void restore(
+      const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
 
  private:
   void place_points();
@@ -73,7 +79,8 @@ class Simulation {
   BoundarySet boundary_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
-  double time_ = 0, dt_ = 0, dt_free_ = 0, min_step_ = 0;  ///< dt_free_: before clipping to output times
+  double time_ = 0, dt_ = 0, dt_free_ = 0,
+         min_step_ = 0;  ///< dt_free_: before clipping to output times
   double max_rate_ = 0;
   int limiter_kind_ = 0;
   std::int64_t steps_ = 0;

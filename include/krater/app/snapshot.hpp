@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/snapshot.hpp
-/// The simulation as arrays for people: fields in order of the points' ids, history rows, measures, summary.
+/// The simulation as arrays for people: fields in order of the points' ids, history rows, measures,
+/// summary.
 #include "krater/app/simulation.hpp"
 #include "krater/output/results.hpp"
 
 namespace krater {
 
-/// Fields of all points: what the columns hold, plus stress and von Mises stress. Method internals only on request.
+/// Fields of all points: what the columns hold, plus stress and von Mises stress. Method internals
+/// only on request.
 OutputFrame make_frame(const Simulation& sim, int number);
 
 /// One value per measure of the scene, in its order [SI].

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file core/aligned.hpp
-/// A growable array of doubles on a cache-line boundary; new memory is zero. Growth keeps the old content.
+/// A growable array of doubles on a cache-line boundary; new memory is zero. Growth keeps the old
+/// content.
 #include <cstddef>
 #include <memory>
 

@@ -2,8 +2,9 @@
 #pragma once
 /// \file core/errors.hpp
 /// The two ways a run ends badly. `InputError`: the user can mend it (exit code 2), text reads
-/// `FILE:LINE: path.to.key: problem (why) remedy`. `NumericalError`: the computation broke (exit code 3), text
-/// names body, point, position, field and time; the state is written before the program ends.
+/// `FILE:LINE: path.to.key: problem (why) remedy`. `NumericalError`: the computation broke (exit
+/// code 3), text names body, point, position, field and time; the state is written before the
+/// program ends.
 #include <stdexcept>
 
 namespace krater {

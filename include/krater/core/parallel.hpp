@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file core/parallel.hpp
-/// The only OpenMP in the program. Work items are independent; nothing may depend on which thread runs an item or
-/// in which order: results are combined by the caller in item order, so any number of threads gives the same bits.
+/// The only OpenMP in the program. Work items are independent; nothing may depend on which thread
+/// runs an item or in which order: results are combined by the caller in item order, so any number
+/// of threads gives the same bits.
 #include <cstddef>
 
 namespace krater {
@@ -16,12 +17,14 @@ namespace detail {
 void for_each(std::size_t count, void (*call)(const void*, std::size_t), const void* context);
 }
 
-/// Call work(i) for i in [0, count), dynamically distributed. `work` must not throw. Denormals are flushed to zero
-/// in every thread: the scheme's own tails (weights near the edge of a support) make them, they cost 100x.
+/// Call work(i) for i in [0, count), dynamically distributed. `work` must not throw. Denormals are
+/// flushed to zero in every thread: the scheme's own tails (weights near the edge of a support)
+/// make them, they cost 100x.
 template <class Work>
 void for_each(std::size_t count, const Work& work) {
   detail::for_each(
-      count, [](const void* context, std::size_t i) { (*static_cast<const Work*>(context))(i); }, &work);
+      count, [](const void* context, std::size_t i) { (*static_cast<const Work*>(context))(i); },
+      &work);
 }
 
 void flush_denormals();  ///< in the calling thread

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file core/parameters.hpp
-/// Declared model parameters: one declaration serves reading, range checks, `krater models` and the manual.
+/// Declared model parameters: one declaration serves reading, range checks, `krater models` and the
+/// manual.
 #include <limits>
 
 namespace krater {

@@ -2,8 +2,8 @@
 /// \file
 /// Portable back end: eight doubles and plain loops over the scalar operations. Include simd.hpp,
 /// not this file. Correct everywhere and slow: without an FMA instruction `fma` is a library call.
-/// The operations are calls, not inlined: eight scalars an operation would blow the kernels up until
-/// one file compiles for ten minutes (measured), for a level that exists to be correct.
+/// The operations are calls, not inlined: eight scalars an operation would blow the kernels up
+/// until one file compiles for ten minutes (measured), for a level that exists to be correct.
 #pragma once
 
 #include "krater/core/simd_scalar.hpp"

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file grid/blocks.hpp
-/// The sparse background grid and who lies where. Space is cut into blocks of block_edge^dim nodes. A patch holds the
-/// points of one body whose base node lies in one block, with a private tile of nodes they scatter into; a node
-/// block sums the tiles that overlap it in a fixed order. Blocks exist only where points are, so the size of the
-/// domain costs nothing, and nothing depends on the number of threads.
+/// The sparse background grid and who lies where. Space is cut into blocks of block_edge^dim nodes.
+/// A patch holds the points of one body whose base node lies in one block, with a private tile of
+/// nodes they scatter into; a node block sums the tiles that overlap it in a fixed order. Blocks
+/// exist only where points are, so the size of the domain costs nothing, and nothing depends on the
+/// number of threads.
 ///
-/// Nodes are counted from the lower domain plane, shifted by one: the plane is storage index 1, the ghost beyond it 0.
+/// Nodes are counted from the lower domain plane, shifted by one: the plane is storage index 1, the
+/// ghost beyond it 0.
 #include <array>
 #include <compare>
 #include <cstdint>
 #include <vector>
 
 #include "krater/core/aligned.hpp"
-#include "krater/points/batch_types.hpp"
+#include "krater/core/batch_types.hpp"
 
 namespace krater {
 
-inline constexpr int kNodeDoubles = 8;   ///< one node = one cache line = one vector register
-inline constexpr int kBlockNodes = 64;   ///< nodes (and cells) of a block: 4^3 or 8^2
+inline constexpr int kNodeDoubles = 8;  ///< one node = one cache line = one vector register
+inline constexpr int kBlockNodes = 64;  ///< nodes (and cells) of a block: 4^3 or 8^2
 constexpr int block_edge(int dimension) { return dimension == 3 ? 4 : 8; }
 constexpr int tile_edge(int dimension) { return block_edge(dimension) + 2; }
 constexpr int tile_nodes(int dimension) { return dimension == 3 ? 216 : 100; }
@@ -31,7 +33,9 @@ struct GridGeometry {
   std::array<double, 3> min{};  ///< lower domain planes [m]
   std::array<int, 3> cells{};   ///< number of cells; upper planes at storage index cells + 1
   /// Storage coordinate: 1 on the lower plane. The same expression decides weights and ownership.
-  double storage(double x, int axis) const { return (x - min[static_cast<std::size_t>(axis)]) * inv_h + 1; }
+  double storage(double x, int axis) const {
+    return (x - min[static_cast<std::size_t>(axis)]) * inv_h + 1;
+  }
   double upper(int axis) const {
     return min[static_cast<std::size_t>(axis)] + h * cells[static_cast<std::size_t>(axis)];
   }
@@ -69,9 +73,9 @@ struct Patch {
   BlockKey key;
   int body = 0;
   int count = 0;
-  AlignedBuffer records;  ///< lane groups of the body's layout
-  AlignedBuffer tile;     ///< tile_nodes * kNodeDoubles
-  AlignedBuffer beta;     ///< per cell: 1 averaged .. 0 shock
+  AlignedBuffer records;             ///< lane groups of the body's layout
+  AlignedBuffer tile;                ///< tile_nodes * kNodeDoubles
+  AlignedBuffer beta;                ///< per cell: 1 averaged .. 0 shock
   std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim, filled by rebuild
   std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
   Outbox outbox;
@@ -94,7 +98,7 @@ struct NodeBlock {
   BlockKey key;
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   bool at_boundary = false;
-  double* nodes = nullptr;      ///< kBlockNodes * kNodeDoubles
+  double* nodes = nullptr;  ///< kBlockNodes * kNodeDoubles
   NodeSums sums;
 };
 
@@ -103,12 +107,12 @@ class BlockGrid {
   explicit BlockGrid(const GridGeometry& geometry) : geometry_{geometry} {}
 
   const GridGeometry& geometry() const { return geometry_; }
-  std::vector<Patch> patches;        ///< sorted by (key, body) after rebuild()
+  std::vector<Patch> patches;          ///< sorted by (key, body) after rebuild()
   std::vector<NodeBlock> node_blocks;  ///< sorted by key
   std::vector<TileRef> tile_refs;
 
-  int find_patch(const BlockKey& key, int body) const;            ///< -1: none
-  int find_node_block(const BlockKey& key) const;                 ///< -1: none
+  int find_patch(const BlockKey& key, int body) const;               ///< -1: none
+  int find_node_block(const BlockKey& key) const;                    ///< -1: none
   double* find_node(const std::array<int, 3>& storage_index) const;  ///< nullptr: not stored
   /// Sort patches, drop empty ones if asked, lay out node blocks and all links.
   void rebuild(bool drop_empty);

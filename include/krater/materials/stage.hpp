@@ -1,23 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file materials/stage.hpp
-/// A material is an ordered list of stages; a scene assembles only the stages it calls for. A stage asks the layout
-/// for its fields when it is made, and is then applied to batches: one virtual call per batch, never per point.
+/// A material is an ordered list of stages; a scene assembles only the stages it calls for. A stage
+/// asks the layout for its fields when it is made, and is then applied to batches: one virtual call
+/// per batch, never per point.
 #include "krater/points/layout.hpp"
 
 namespace krater {
 
 struct BatchData;
 
-/// Order within one constitutive update (theory 4: f, sym H, j -> rho, v -> q_v -> s, d -> EOS -> T -> c).
-enum class StageOrder : int { kinematics, viscosity, strength, equation_of_state, heating, signal_speed };
+/// Order within one constitutive update (theory 4: f, sym H, j -> rho, v -> q_v -> s, d -> EOS -> T
+/// -> c).
+enum class StageOrder : int {
+  kinematics,
+  viscosity,
+  strength,
+  equation_of_state,
+  heating,
+  signal_speed
+};
 
 class Stage {
  public:
   Stage() = default;
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
-  virtual ~Stage();  // defined in stage.cpp: an inline one would be compiled at every instruction-set level
+  virtual ~Stage();  // defined in stage.cpp: an inline one would be compiled at every
+                     // instruction-set level
   virtual StageOrder order() const = 0;
   virtual void apply(const BatchData& batch) const = 0;
 };
@@ -31,11 +41,12 @@ struct MaterialConstants {
 
 /// Makes stages of one instruction-set level (materials/stages_hot.cpp is compiled once per level).
 struct StageFactory {
-  /// `law`: index in catalogue() (materials/catalogue.hpp); `values`: its parameters in declared order.
-  /// Ownership passes to the caller.
+  /// `law`: index in catalogue() (materials/catalogue.hpp); `values`: its parameters in declared
+  /// order. Ownership passes to the caller.
   Stage* (*make)(int law, const double* values, const MaterialConstants& constants, Layout& layout);
-  Stage* (*kinematics)(Layout& layout);                ///< always first: f -> sym H, rho, v, tr D
-  Stage* (*signal_speed)(double q_lin, double q_quad, Layout& layout);  ///< always last: c_L, Qv -> signal speed
+  Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
+  Stage* (*signal_speed)(double q_lin, double q_quad,
+                         Layout& layout);  ///< always last: c_L, Qv -> signal speed
 };
 
 }  // namespace krater

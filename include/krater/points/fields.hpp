@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file points/fields.hpp
-/// Every quantity a material point can carry. A field is a type; its `info` gives name, unit, components and
-/// meaning, so that output, restart, sorting and migration need no code per field.
+/// Every quantity a material point can carry. A field is a type; its `info` gives name, unit,
+/// components and meaning, so that output, restart, sorting and migration need no code per field.
 ///
-/// Tensor components: `xx yy zz yz xz xy`, tension positive; pressure positive in compression. Grid axes map to
-/// tensor axes by the frame: 3d (x, y, z) -> 0, 1, 2; plane strain (x, z) -> 0, 2 with y = 1 out of plane;
-/// axisymmetric (r, z) -> 0, 2 with the hoop direction = 1.
+/// Tensor components: `xx yy zz yz xz xy`, tension positive; pressure positive in compression. Grid
+/// axes map to tensor axes by the frame: 3d (x, y, z) -> 0, 1, 2; plane strain (x, z) -> 0, 2 with
+/// y = 1 out of plane; axisymmetric (r, z) -> 0, 2 with the hoop direction = 1.
 
 namespace krater {
 
 /// Number of components that depends on the dimension of the grid.
-inline constexpr int kPerAxis = -1;        ///< one per grid axis (2 or 3)
-inline constexpr int kPerAxisSquared = -2; ///< a matrix over grid axes (4 or 9), row-major
+inline constexpr int kPerAxis = -1;         ///< one per grid axis (2 or 3)
+inline constexpr int kPerAxisSquared = -2;  ///< a matrix over grid axes (4 or 9), row-major
 
 struct FieldInfo {
   const char* name;
@@ -22,12 +22,14 @@ struct FieldInfo {
 };
 
 template <class F>
-concept Field = requires { static_cast<const FieldInfo&>(F::info); };
+concept Field = requires {
+  static_cast<const FieldInfo&>(F::info);
+};
 
 namespace field {
 
-#define KRATER_FIELD(Type, name, unit, components, meaning) \
-  struct Type {                                             \
+#define KRATER_FIELD(Type, name, unit, components, meaning)           \
+  struct Type {                                                       \
     static constexpr FieldInfo info{name, unit, components, meaning}; \
   }
 
@@ -35,8 +37,10 @@ namespace field {
 KRATER_FIELD(Id, "id", "1", 1, "number of the point in its body, for ever");
 KRATER_FIELD(Position, "position", "m", kPerAxis, "position along the grid axes");
 KRATER_FIELD(Velocity, "velocity", "m/s", kPerAxis, "velocity along the grid axes");
-KRATER_FIELD(AffineVelocity, "affine_velocity", "1/s", kPerAxisSquared, "velocity gradient carried to the grid (TFLIP, APIC)");
-KRATER_FIELD(Mass, "mass", "kg", 1, "mass (full revolution if axisymmetric, per metre of depth in plane strain)");
+KRATER_FIELD(AffineVelocity, "affine_velocity", "1/s", kPerAxisSquared,
+             "velocity gradient carried to the grid (TFLIP, APIC)");
+KRATER_FIELD(Mass, "mass", "kg", 1,
+             "mass (full revolution if axisymmetric, per metre of depth in plane strain)");
 KRATER_FIELD(Density, "density", "kg/m^3", 1, "current density");
 KRATER_FIELD(DeviatoricStress, "deviatoric_stress", "Pa", 6, "deviator of the Cauchy stress");
 KRATER_FIELD(Pressure, "pressure", "Pa", 1, "pressure carried by the material, without viscosity");
@@ -45,20 +49,29 @@ KRATER_FIELD(InternalEnergy, "internal_energy", "J/kg", 1, "specific internal en
 KRATER_FIELD(Temperature, "temperature", "K", 1, "temperature");
 KRATER_FIELD(PlasticStrain, "plastic_strain", "1", 1, "accumulated equivalent plastic strain");
 KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last update, undamaged");
-KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1, "|tr D| h / c of the last update: switches cell averaging off");
+KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1,
+             "|tr D| h / c of the last update: switches cell averaging off");
 KRATER_FIELD(HalfWidth, "half_width", "m", kPerAxis, "half-width of the point's domain (gimp)");
-KRATER_FIELD(DeformationGradient, "deformation_gradient", "1", 9, "F, row-major, from the start of the run");
-KRATER_FIELD(ReferencePosition, "reference_position", "m", kPerAxis, "position at the start of the run");
+KRATER_FIELD(DeformationGradient, "deformation_gradient", "1", 9,
+             "F, row-major, from the start of the run");
+KRATER_FIELD(ReferencePosition, "reference_position", "m", kPerAxis,
+             "position at the start of the run");
 KRATER_FIELD(BodyAcceleration, "body_acceleration", "m/s^2", kPerAxis, "body force per mass");
-KRATER_FIELD(GridVelocity, "grid_velocity", "m/s", kPerAxis, "interpolated grid velocity of the step (musl, xpic)");
+KRATER_FIELD(GridVelocity, "grid_velocity", "m/s", kPerAxis,
+             "interpolated grid velocity of the step (musl, xpic)");
 
 // Local: exists only while a batch of points is updated.
-KRATER_FIELD(StepGradient, "step_gradient", "1", 9, "dt L over tensor axes, row-major; f = I + dt L maps the step");
-KRATER_FIELD(ExtraDilatation, "extra_dilatation", "1", 1, "dt (cell-averaged - own) tr L, zero without averaging");
-KRATER_FIELD(StrainStep, "strain_step", "1", 6, "sym H, H = (f - I)[(f + I)/2]^-1: strain increment of the step");
-KRATER_FIELD(DilatationRate, "dilatation_rate", "1/s", 1, "tr D of the step, cell-averaged where averaging is on");
+KRATER_FIELD(StepGradient, "step_gradient", "1", 9,
+             "dt L over tensor axes, row-major; f = I + dt L maps the step");
+KRATER_FIELD(ExtraDilatation, "extra_dilatation", "1", 1,
+             "dt (cell-averaged - own) tr L, zero without averaging");
+KRATER_FIELD(StrainStep, "strain_step", "1", 6,
+             "sym H, H = (f - I)[(f + I)/2]^-1: strain increment of the step");
+KRATER_FIELD(DilatationRate, "dilatation_rate", "1/s", 1,
+             "tr D of the step, cell-averaged where averaging is on");
 KRATER_FIELD(SpecificVolumes, "specific_volumes", "m^3/kg", 2, "v_n and v_n+1");
-KRATER_FIELD(SpecificWork, "specific_work", "J/kg", 1, "work of deviator and viscosity in the step");
+KRATER_FIELD(SpecificWork, "specific_work", "J/kg", 1,
+             "work of deviator and viscosity in the step");
 KRATER_FIELD(ShearModulus, "shear_modulus", "Pa", 1, "undamaged shear modulus of the step");
 KRATER_FIELD(PlasticWork, "plastic_work", "J/kg", 1, "q d / rho of the step");
 KRATER_FIELD(SignalSpeed, "signal_speed", "m/s", 1, "Qv + sqrt(Qv^2 + c_L^2), theory 12");

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/audit.hpp
-/// The telescopic energy audit (theory 11). Each step's entries are measured from their own two sides:
+/// The telescopic energy audit (theory 11). Each step's entries are measured from their own two
+/// sides:
 ///   transfer_in  = KE_points - 1/2 sum m_I |v-|^2
 ///   work of internal forces, body forces, walls: their sum is the grid's change of kinetic energy
-///   transfer_out = 1/2 sum m_I |v+|^2 - KE_points,new;   dIE = sum m de;   time_centring = - W_int - dIE
-///   residual     = d(KE + IE) + transfer_in + transfer_out + time_centring - W_ext - W_wall + removed
+///   transfer_out = 1/2 sum m_I |v+|^2 - KE_points,new;   dIE = sum m de;   time_centring = - W_int
+///   - dIE residual     = d(KE + IE) + transfer_in + transfer_out + time_centring - W_ext - W_wall
+///   + removed
 /// The residual is an arithmetic check (round-off); the quality figure is energy_error_fraction.
 #include <array>
 
-#include "krater/points/batch_types.hpp"
+#include "krater/core/batch_types.hpp"
 
 namespace krater {
 
@@ -25,26 +27,30 @@ struct Audit {
   double wall_columns = 0;   ///< columns in contact in the last step
   double step_external = 0;  ///< work of body forces in the step under way [J]
 
-  /// Energies at the start of a step: points' kinetic and internal, grid's kinetic before and after the forces [J].
+  /// Energies at the start of a step: points' kinetic and internal, grid's kinetic before and after
+  /// the forces [J].
   struct StepEnergies {
     double kinetic, internal, grid_before, grid_after;
   };
   /// Book a step whose new kinetic and internal energy are already in place.
-  /// `wall`: change of the grid's kinetic energy by planes, of which `correction` belongs to the forces: their power is
-  /// taken with the velocity that the points see.
-  void book_step(const StepEnergies& e, double wall, double correction, const std::array<double, 3>& impulse, int columns);
+  /// `wall`: change of the grid's kinetic energy by planes, of which `correction` belongs to the
+  /// forces: their power is taken with the velocity that the points see.
+  void book_step(const StepEnergies& e, double wall, double correction,
+                 const std::array<double, 3>& impulse, int columns);
   void book_events(const Ledger& ledger);
   /// Energy and momentum that left with removed points.
   void book_removed(double kinetic_gone, double internal_gone, double mass, double count,
                     const std::array<double, 3>& momentum, double reflected);
 
-  /// (KE + IE now) - (at the start) + everything booked as gone or come: zero but for round-off [J].
+  /// (KE + IE now) - (at the start) + everything booked as gone or come: zero but for round-off
+  /// [J].
   double residual(double measured_kinetic, double measured_internal) const {
-    return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) + transfer_in + transfer_out +
-           time_centring - external_work - wall_work + removed_energy;
+    return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) +
+           transfer_in + transfer_out + time_centring - external_work - wall_work + removed_energy;
   }
-  /// (sum of transfers + time centring) / E_0, signed: what the scheme itself lost (positive) or gained. E_0 is the
-  /// kinetic energy at the start, or the external work where a scene starts at rest.
+  /// (sum of transfers + time centring) / E_0, signed: what the scheme itself lost (positive) or
+  /// gained. E_0 is the kinetic energy at the start, or the external work where a scene starts at
+  /// rest.
   double error_fraction() const {
     const double start = initial_kinetic + initial_internal;
     const double scale = start > 0 ? start : external_work;

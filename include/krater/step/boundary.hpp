@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/boundary.hpp
-/// Domain planes. Each lies on a line of nodes; points beyond half a cell of it also see one ghost node outside.
-/// - symmetry (and the axis r = 0), sticky: the ghost's sums are folded onto its mirror node before the momentum
-///   update, normal components odd, tangential even (sticky: all odd), the plane's own odd components vanish. This is
-///   the shape function S(x - x_i) +- S(x + x_i): exact for every shape, no special knots (numerics A1).
-/// - wall: unilateral. After the momentum update a column (ghost, plane, inner node) is in contact if the wall would
-///   push, J = -(2 m_g v_g + m_0 v_0).n > 0, and material touches the plane, 2 V_0 > (1 - tol)(V_1 + V_g): the volume
-///   criterion of numerics A10 against the column's own fill, so that it also holds at the rim of a foot. Then the
-///   column is folded as above with Coulomb friction |J_t| <= mu J_n; otherwise it is left alone and the body flies off.
+/// Domain planes. Each lies on a line of nodes; points beyond half a cell of it also see one ghost
+/// node outside.
+/// - symmetry (and the axis r = 0), sticky: the ghost's sums are folded onto its mirror node before
+/// the momentum
+///   update, normal components odd, tangential even (sticky: all odd), the plane's own odd
+///   components vanish. This is the shape function S(x - x_i) +- S(x + x_i): exact for every shape,
+///   no special knots (numerics A1).
+/// - wall: unilateral. After the momentum update a column (ghost, plane, inner node) is in contact
+/// if the wall would
+///   push, J = -(2 m_g v_g + m_0 v_0).n > 0, and material touches the plane, 2 V_0 > (1 - tol)(V_1
+///   + V_g): the volume criterion of numerics A10 against the column's own fill, so that it also
+///   holds at the rim of a foot. Then the column is folded as above with Coulomb friction |J_t| <=
+///   mu J_n; otherwise it is left alone and the body flies off.
 /// - velocity: plane and ghost nodes move as prescribed.
 /// - open: nothing; points that leave are removed and accounted.
 #include <array>
@@ -23,9 +28,9 @@ using BoundaryConditions = std::array<std::array<Boundary, 2>, 3>;  ///< [axis][
 
 /// What the planes did in one step.
 struct BoundaryWork {
-  double work = 0;                     ///< change of the grid's kinetic energy [J]
-  double force_correction = 0;         ///< change of the work of the nodal forces, part of `work` [J]
-  std::array<double, 3> impulse{};     ///< on the points [N s]
+  double work = 0;                  ///< change of the grid's kinetic energy [J]
+  double force_correction = 0;      ///< change of the work of the nodal forces, part of `work` [J]
+  std::array<double, 3> impulse{};  ///< on the points [N s]
   int columns_in_contact = 0;
 };
 
@@ -35,7 +40,8 @@ class BoundarySet {
       : geometry_{geometry}, conditions_{conditions} {}
 
   const BoundaryConditions& conditions() const { return conditions_; }
-  /// Find the columns of nodes at each plane and mark their blocks; call after BlockGrid::rebuild().
+  /// Find the columns of nodes at each plane and mark their blocks; call after
+  /// BlockGrid::rebuild().
   void relink(BlockGrid& grid);
   /// symmetry, sticky: fold sums [m, p, f, V]; before the momentum update.
   void fold() const;
@@ -44,7 +50,8 @@ class BoundarySet {
   /// Give ghosts the mirrored values the gather reads.
   void mirror() const;
   bool is_open(int axis, int side) const {
-    return conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)].kind == BoundaryKind::open;
+    return conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)].kind ==
+           BoundaryKind::open;
   }
 
  private:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/cells.hpp
-/// Cell averages against volumetric locking (numerics A5). Over the points of a cell (their common base node):
+/// Cell averages against volumetric locking (numerics A5). Over the points of a cell (their common
+/// base node):
 ///   tr_c = sum V tr L / sum V,  P_c = sum V (p + q) / sum V,
-/// the stress update sees tr L + beta (tr_c - tr L), the force sees (1 - beta)(p + q) + beta P_c. One beta for both
-/// keeps the internal force and the dilatation adjoint, so the averages do no work. beta fades from 1 to 0 where the
-/// last update saw |tr D| h / c between 0.001 and 0.005: in shocks the averages would smear.
+/// the stress update sees tr L + beta (tr_c - tr L), the force sees (1 - beta)(p + q) + beta P_c.
+/// One beta for both keeps the internal force and the dilatation adjoint, so the averages do no
+/// work. beta fades from 1 to 0 where the last update saw |tr D| h / c between 0.001 and 0.005: in
+/// shocks the averages would smear.
 #include "krater/step/weights.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -17,7 +19,8 @@ struct CellSums {
   double* volume;
   double* value;
   KRATER_FORCE_INLINE void clear() const {
-    for (int c = 0; c < kBlockNodes; c += kLanes) store(volume + c, Pack(0.0)), store(value + c, Pack(0.0));
+    for (int c = 0; c < kBlockNodes; c += kLanes)
+      store(volume + c, Pack(0.0)), store(value + c, Pack(0.0));
   }
   KRATER_FORCE_INLINE void add(const double* cells, Pack V, Pack quantity) const {
     alignas(64) double v[8], vq[8];
@@ -45,8 +48,8 @@ KRATER_FORCE_INLINE Pack look_up(const double* table, const double* cells) {
 
 /// beta per cell from the shock indicators of its points.
 template <int Dim>
-KRATER_FORCE_INLINE void shock_switch(const Patch& patch, const GridGeometry& grid, ReadView x, ReadView indicator,
-                                      double* cells, double* beta) {
+KRATER_FORCE_INLINE void shock_switch(const Patch& patch, const GridGeometry& grid, ReadView x,
+                                      ReadView indicator, double* cells, double* beta) {
   const PatchOrigin origin = origin_of<Dim>(patch);
   for (int c = 0; c < kBlockNodes; c += kLanes) store(beta + c, Pack(0.0));
   for (int g = 0; g < patch.groups(); ++g) {
@@ -60,7 +63,8 @@ KRATER_FORCE_INLINE void shock_switch(const Patch& patch, const GridGeometry& gr
     }
   }
   for (int c = 0; c < kBlockNodes; c += kLanes)
-    store(beta + c, clamp((kShockOn - load(beta + c)) * (1 / (kShockOn - kShockOff)), Pack(0.0), Pack(1.0)));
+    store(beta + c,
+          clamp((kShockOn - load(beta + c)) * (1 / (kShockOn - kShockOff)), Pack(0.0), Pack(1.0)));
 }
 
 }  // namespace krater::inline KRATER_ISA

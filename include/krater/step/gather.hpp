@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/gather.hpp
-/// grid_to_particles of one patch, then the constitutive stages on the points while they are in the cache:
+/// grid_to_particles of one patch, then the constitutive stages on the points while they are in the
+/// cache:
 ///   s+ = sum S v+,  s- = s+ - sum S dv,  v_p <- s+ + alpha (v_p - s-),  x_p <- x_p + dt s+,
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
-/// alpha = 1: FLIP; 0: APIC; between: TFLIP, less of the old residual where the shock switch is on. An isolated point
-/// (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand for ever.
+/// alpha = 1: FLIP; 0: APIC; between: TFLIP, less of the old residual where the shock switch is on.
+/// An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand
+/// for ever.
 #include "krater/step/scatter.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -19,13 +21,24 @@ struct GatherViews {
   ReadView signal;
 };
 
-KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c, const SweepScratch& w) {
+KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
+                                           const SweepScratch& w) {
   const auto read = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
   const auto write = [&](int offset) { return WriteView{patch.records.data() + offset, c.stride}; };
-  return {write(c.position),    write(c.velocity), write(c.affine),       write(c.grid_velocity),
-          read(c.mass),         read(c.density),   read(c.half_width),    read(c.body_acceleration),
-          read(c.energy),       read(c.sound_speed), write(c.indicator),  WriteView{w.local + c.local_gradient, c.local_stride},
-          WriteView{w.local + c.local_dilatation, c.local_stride},        ReadView{w.local + c.local_signal, c.local_stride}};
+  return {write(c.position),
+          write(c.velocity),
+          write(c.affine),
+          write(c.grid_velocity),
+          read(c.mass),
+          read(c.density),
+          read(c.half_width),
+          read(c.body_acceleration),
+          read(c.energy),
+          read(c.sound_speed),
+          write(c.indicator),
+          WriteView{w.local + c.local_gradient, c.local_stride},
+          WriteView{w.local + c.local_dilatation, c.local_stride},
+          ReadView{w.local + c.local_signal, c.local_stride}};
 }
 
 KRATER_FORCE_INLINE ReadView reading(WriteView v) { return {v.base, v.stride}; }
@@ -38,7 +51,8 @@ void load_halo(const BlockGrid& grid, const Patch& patch, double* halo) {
     for (int j = 0; j < T; ++j)
       for (int high = 0; high < 2; ++high) {
         const int corner = Dim == 3 ? (i / E) + 2 * (j / E) + 4 * high : (j / E) + 2 * high;
-        const NodeBlock& block = grid.node_blocks[static_cast<unsigned>(patch.node_blocks[static_cast<unsigned>(corner)])];
+        const NodeBlock& block = grid.node_blocks[static_cast<unsigned>(
+            patch.node_blocks[static_cast<unsigned>(corner)])];
         const double* from = block.nodes + kNodeDoubles * (((i % E) * E + j % E) * E);
         double* to = halo + kNodeDoubles * ((i * T + j) * T + E * high);
         for (int k = 0; k < (high != 0 ? T - E : E); ++k) store(to + 8 * k, load(from + 8 * k));
@@ -52,7 +66,8 @@ struct PointSums {
 };
 
 template <int Dim>
-KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>& lw, PointSums<Dim>& out) {
+KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>& lw,
+                                      PointSums<Dim>& out) {
   for (int l = 0; l < kLanes; ++l) {
     const Gathered<Dim> point = gather_point<Dim>(halo, lw, l);
     out.V[l] = point.V;
@@ -70,20 +85,23 @@ struct GatherSums {
 template <GatherPart Part>
 struct PartTraits {
   static constexpr bool velocity = Part == GatherPart::all || Part == GatherPart::velocity_only ||
-                                   Part == GatherPart::velocity_move || Part == GatherPart::filter_move;
+                                   Part == GatherPart::velocity_move ||
+                                   Part == GatherPart::filter_move;
   static constexpr bool strain = Part == GatherPart::all || Part == GatherPart::strain_move ||
                                  Part == GatherPart::strain_only || Part == GatherPart::filter_move;
-  static constexpr bool keep = Part == GatherPart::velocity_only || Part == GatherPart::keep_only;  ///< for later
+  static constexpr bool keep =
+      Part == GatherPart::velocity_only || Part == GatherPart::keep_only;  ///< for later
   static constexpr bool move = !keep && Part != GatherPart::strain_only;
-  static constexpr bool kept = Part == GatherPart::strain_move;      ///< move with the kept s+
-  static constexpr bool mean = Part == GatherPart::filter_move;      ///< move with the mean of old and new v_p
-  static constexpr bool last = move;                                 ///< velocities and L are final: sum the energies
+  static constexpr bool kept = Part == GatherPart::strain_move;  ///< move with the kept s+
+  static constexpr bool mean =
+      Part == GatherPart::filter_move;  ///< move with the mean of old and new v_p
+  static constexpr bool last = move;    ///< velocities and L are final: sum the energies
 };
 
 /// Velocity and position of 8 points; returns nothing, adds the work of body forces.
 template <class Frame, GatherPart Part>
-KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Frame::dim>& n, const SweepSettings& s,
-                                     Pack alpha, int g, GatherSums& sums) {
+KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                     const SweepSettings& s, Pack alpha, int g, GatherSums& sums) {
   using T = PartTraits<Part>;
   const Pack m = view.mass(g);
   for (int a = 0; a < Frame::dim; ++a) {
@@ -93,7 +111,8 @@ KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Fr
     if constexpr (T::velocity) {
       const Pack fresh = fma(alpha, old - (plus - change), plus);
       view.velocity.set(g, a, fresh);
-      sums.external = fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), change, plus), sums.external);
+      sums.external =
+          fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), change, plus), sums.external);
       if constexpr (T::mean) carried = 0.5 * (old + fresh);
     }
     if constexpr (T::keep) view.kept.set(g, a, plus);
@@ -104,13 +123,15 @@ KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Fr
 
 /// dt L over tensor axes into the local record; returns tr L.
 template <class Frame>
-KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n, Pack r, double dt, int g) {
+KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                        Pack r, double dt, int g) {
   constexpr int D = Frame::dim;
   Pack trace = 0.0;
   if constexpr (D == 2)
     for (int k = 0; k < 9; ++k) view.step_gradient.set(g, k, Pack(0.0));
   for (int i = 0; i < D; ++i) {
-    for (int a = 0; a < D; ++a) view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), dt * n.G[a][i]);
+    for (int a = 0; a < D; ++a)
+      view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), dt * n.G[a][i]);
     trace += n.G[i][i];
   }
   if constexpr (Frame::hoop) {
@@ -121,7 +142,8 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
   return trace;
 }
 
-/// L carried to the grid (zero for an isolated point) and the kinetic energy, affine part 1/2 m h^2/4 L:L included.
+/// L carried to the grid (zero for an isolated point) and the kinetic energy, affine part 1/2 m
+/// h^2/4 L:L included.
 template <class Frame, bool Affine>
 KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSums<Frame::dim>& n,
                                          const LaneWeights<Frame::dim>& lw, double moment, int g,
@@ -153,13 +175,14 @@ KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSum
 
 /// Lanes whose point is no longer in this block or not inside the domain.
 template <int Dim>
-KRATER_FORCE_INLINE Mask left_block(const GridGeometry& grid, const PatchOrigin& origin, ReadView x, int g) {
+KRATER_FORCE_INLINE Mask left_block(const GridGeometry& grid, const PatchOrigin& origin, ReadView x,
+                                    int g) {
   Mask out = Pack(0.0) > Pack(0.0);
   for (int a = 0; a < Dim; ++a) {
     const Pack s = storage(grid, x(g, a), a);
     const Pack cell = base_node(s) - origin.first[a];
-    out = out | (cell < Pack(0.0)) | (cell >= Pack(static_cast<double>(block_edge(Dim)))) | (s < Pack(1.0)) |
-          (s > Pack(grid.cells[static_cast<unsigned>(a)] + 1.0));
+    out = out | (cell < Pack(0.0)) | (cell >= Pack(static_cast<double>(block_edge(Dim)))) |
+          (s < Pack(1.0)) | (s > Pack(grid.cells[static_cast<unsigned>(a)] + 1.0));
   }
   return out;
 }
@@ -168,13 +191,14 @@ KRATER_FORCE_INLINE void note_limit(PatchResult& r, Pack rate, int kind, int g, 
   const Pack candidate = select(valid, rate, Pack(0.0));
   if (!any(candidate > Pack(r.max_rate))) return;
   for (int l = 0; l < kLanes; ++l)
-    if (get(candidate, l) > r.max_rate) r.max_rate = get(candidate, l), r.limiter = kind, r.limiting_point = kLanes * g + l;
+    if (get(candidate, l) > r.max_rate)
+      r.max_rate = get(candidate, l), r.limiter = kind, r.limiting_point = kLanes * g + l;
 }
 
 /// After the stages: shock indicator, time-step limits, internal energy of groups [first, last).
 template <int Dim>
-void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s, int first, int last, ReadView rate,
-                  bool indicator, GatherSums& sums) {
+void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s, int first,
+                  int last, ReadView rate, bool indicator, GatherSums& sums) {
   const GridGeometry& grid = *s.geometry;
   for (int g = first; g < last; ++g) {
     const Mask valid = first_lanes(patch.count - kLanes * g);
@@ -182,7 +206,8 @@ void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s,
     if (indicator) view.indicator.set(g, select(c > Pack(0.0), expansion * grid.h / c, Pack(0.0)));
     Pack speed = 0.0;
     for (int a = 0; a < Dim; ++a) speed = max(speed, abs(view.velocity(g, a)));
-    note_limit(patch.result, (speed + signal) * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g, valid);
+    note_limit(patch.result, (speed + signal) * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g,
+               valid);
     note_limit(patch.result, 10.0 * expansion, 2, g, valid);
     sums.internal = fma(view.mass(g), view.energy(g), sums.internal);
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/gather_patch.hpp
-/// The two passes of the gather over one patch: first all velocity gradients (the cell averages need them), then the
-/// constitutive stages on runs of a few lane groups, so that their local records stay in the first-level cache.
+/// The two passes of the gather over one patch: first all velocity gradients (the cell averages
+/// need them), then the constitutive stages on runs of a few lane groups, so that their local
+/// records stay in the first-level cache.
 #include "krater/step/gather.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -30,33 +31,40 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     for (int a = 0; a < D; ++a)
       for (int i = 0; i < D; ++i) check += n.G[a][i];
     const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
-    if (bad != 0 && patch.result.fault.kind == FaultKind::none) patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
+    if (bad != 0 && patch.result.fault.kind == FaultKind::none)
+      patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
 
     if constexpr (T::strain) {
       const Pack trace = store_gradient<Frame>(view, n, r, s.dt, g);
-      view.extra_dilatation.set(g, trace);  // tr L for now; average_dilatation() turns it into the increment
+      view.extra_dilatation.set(
+          g, trace);  // tr L for now; average_dilatation() turns it into the increment
       if (s.average_cells) cells.add(cell, view.mass(g) / view.density(g), trace);
       if constexpr (Shape::has_width) {
         WriteView width{const_cast<double*>(view.half_width.base), view.half_width.stride};
-        for (int a = 0; a < D; ++a) width.set(g, a, view.half_width(g, a) * fma(Pack(s.dt), n.G[a][a], Pack(1.0)));
+        for (int a = 0; a < D; ++a)
+          width.set(g, a, view.half_width(g, a) * fma(Pack(s.dt), n.G[a][a], Pack(1.0)));
       }
     }
     if constexpr (T::velocity || T::move || T::keep) {
       Pack alpha = s.alpha;
-      if (s.shock_switch) alpha = fma(look_up(patch.beta.data(), cell), Pack(s.alpha - s.alpha_shock), Pack(s.alpha_shock));
+      if (s.shock_switch)
+        alpha = fma(look_up(patch.beta.data(), cell), Pack(s.alpha - s.alpha_shock),
+                    Pack(s.alpha_shock));
       move_points<Frame, Part>(view, n, s, alpha, g, sums);
     }
     if constexpr (T::last) {
       finish_velocity<Frame, Affine>(view, n, lw, 0.25 * grid.h * grid.h, g, sums);
-      w.leavers[g] = static_cast<unsigned char>(
-          bits(left_block<D>(grid, origin, reading(view.position), g) & first_lanes(patch.count - kLanes * g)));
+      w.leavers[g] =
+          static_cast<unsigned char>(bits(left_block<D>(grid, origin, reading(view.position), g) &
+                                          first_lanes(patch.count - kLanes * g)));
     }
   }
 }
 
 /// ExtraDilatation: tr L -> dt beta (tr_c - tr L).
-KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSettings& s, const SweepScratch& w,
-                                            const GatherViews& view, const CellSums& cells) {
+KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSettings& s,
+                                            const SweepScratch& w, const GatherViews& view,
+                                            const CellSums& cells) {
   if (!s.average_cells) {
     for (int g = 0; g < patch.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
     return;
@@ -71,23 +79,33 @@ KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSetti
 
 /// Second pass: constitutive update.
 template <int Dim>
-void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w,
-                const GatherViews& view, GatherSums& sums) {
+void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
+                const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
   const PointColumns& c = body.columns;
   const ReadView rate{w.local + c.local_rate, c.local_stride};
   for (int first = 0; first < patch.groups(); first += kStageGroups) {
-    const int groups = patch.groups() - first < kStageGroups ? patch.groups() - first : kStageGroups;
-    const BatchData batch{patch.records.data() + first * c.stride, c.stride, w.local + first * c.local_stride,
-                          c.local_stride, w.zeros, groups, patch.count - kLanes * first, first, s.dt,
-                          s.geometry->h, &patch.result.ledger, &patch.result.fault};
+    const int groups =
+        patch.groups() - first < kStageGroups ? patch.groups() - first : kStageGroups;
+    const BatchData batch{patch.records.data() + first * c.stride,
+                          c.stride,
+                          w.local + first * c.local_stride,
+                          c.local_stride,
+                          w.zeros,
+                          groups,
+                          patch.count - kLanes * first,
+                          first,
+                          s.dt,
+                          s.geometry->h,
+                          &patch.result.ledger,
+                          &patch.result.fault};
     for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
     after_stages<Dim>(patch, view, s, first, first + groups, rate, c.indicator >= 0, sums);
   }
 }
 
 template <class Frame, class Shape, bool Affine, GatherPart Part>
-void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& body, const SweepSettings& s,
-                  const SweepScratch& w) {
+void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+                  const SweepSettings& s, const SweepScratch& w) {
   constexpr int D = Frame::dim;
   using T = PartTraits<Part>;
   load_halo<D>(grid, patch, w.halo);

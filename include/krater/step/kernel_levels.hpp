@@ -13,7 +13,8 @@ const KernelFactory* kernel_factory_isa_v4();  ///< AVX-512
 enum class IsaLevel : int { portable, v3, v4 };
 const char* name_of(IsaLevel level);
 
-/// The best level this processor runs; KRATER_ISA=portable|v3|v4 in the environment lowers it (the bits agree).
+/// The best level this processor runs; KRATER_ISA=portable|v3|v4 in the environment lowers it (the
+/// bits agree).
 IsaLevel best_isa_level();
 const KernelFactory& kernel_factory(IsaLevel level);
 const StageFactory& stage_factory(IsaLevel level);

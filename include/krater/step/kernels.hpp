@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/kernels.hpp
-/// The hot loops of the step behind one virtual call per block. An implementation exists for each frame, shape and
-/// instruction-set level (src/step/kernels_*_hot.cpp); everything that crosses this line is plain data.
+/// The hot loops of the step behind one virtual call per block. An implementation exists for each
+/// frame, shape and instruction-set level (src/step/kernels_*_hot.cpp); everything that crosses
+/// this line is plain data.
 ///
-/// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the momentum update:
-/// [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-. Two-dimensional frames leave index 2 unused.
+/// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the
+/// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-. Two-dimensional
+/// frames leave index 2 unused.
 #include "krater/grid/blocks.hpp"
 #include "krater/materials/stage.hpp"
 
 namespace krater {
 
-/// Where the method finds its columns: offsets in the state record, -1 where a column does not exist.
+/// Where the method finds its columns: offsets in the state record, -1 where a column does not
+/// exist.
 struct PointColumns {
   int stride = 0, local_stride = 0;
   int position = -1, velocity = -1, mass = -1, density = -1;
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
   int indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
-  int local_gradient = -1, local_dilatation = -1, local_signal = -1, local_rate = -1;  ///< local record
+  int local_gradient = -1, local_dilatation = -1, local_signal = -1,
+      local_rate = -1;  ///< local record
 };
 
 /// One body as the kernels see it.
@@ -38,11 +42,11 @@ struct SweepSettings {
 
 /// Memory of one thread.
 struct SweepScratch {
-  double* halo;           ///< tile_nodes * kNodeDoubles
-  double* local;          ///< groups of a patch * local stride
-  double* cells;          ///< 4 * kBlockNodes
-  double* pressures;      ///< 8 per group: pressure of the force
-  unsigned char* leavers; ///< 1 per group: lanes that left the block or the domain
+  double* halo;            ///< tile_nodes * kNodeDoubles
+  double* local;           ///< groups of a patch * local stride
+  double* cells;           ///< 4 * kBlockNodes
+  double* pressures;       ///< 8 per group: pressure of the force
+  unsigned char* leavers;  ///< 1 per group: lanes that left the block or the domain
   const double* zeros;
 };
 
@@ -64,14 +68,16 @@ class Kernels {
   Kernels& operator=(const Kernels&) = delete;
   virtual ~Kernels();
   /// m_i, p_i, f_i, V_i of one patch into its tile; also its cells' beta.
-  virtual void scatter(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w) const = 0;
+  virtual void scatter(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
+                       const SweepScratch& w) const = 0;
   /// Sum the tiles over one node block.
   virtual void sum_tiles(const BlockGrid& grid, NodeBlock& block) const = 0;
   /// v- = p/m, dv = dt_force f/m, v+ = v- + dv, and the sums of the audit.
-  virtual void momentum(NodeBlock& block, double dt_force, double smallest_mass, double cell_volume) const = 0;
+  virtual void momentum(NodeBlock& block, double dt_force, double smallest_mass,
+                        double cell_volume) const = 0;
   /// Velocities, positions, stresses of one patch from the nodes.
-  virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body, const SweepSettings& s,
-                      const SweepScratch& w, GatherPart part) const = 0;
+  virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+                      const SweepSettings& s, const SweepScratch& w, GatherPart part) const = 0;
 };
 
 enum class KernelShape : int { quadratic_bspline, gimp, linear };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/migrate.hpp
-/// Points that left their block move to the neighbour, the others stay where they are: a full sort would cost as
-/// much as a step (numerics C2). Order is fixed: holes are filled from the end of the patch, arrivals are appended by
-/// neighbour (lexicographic), then by their old index; so the bits do not depend on threads.
+/// Points that left their block move to the neighbour, the others stay where they are: a full sort
+/// would cost as much as a step (numerics C2). Order is fixed: holes are filled from the end of the
+/// patch, arrivals are appended by neighbour (lexicographic), then by their old index; so the bits
+/// do not depend on threads.
 #include <array>
 
 #include "krater/step/boundary.hpp"
@@ -18,11 +19,13 @@ struct Removed {
   double reflections = 0;  ///< points put back at a closed side (round-off)
 };
 
-/// Move leaving points of one patch into its outbox, or out of the computation. `leavers`: lane mask per group.
+/// Move leaving points of one patch into its outbox, or out of the computation. `leavers`: lane
+/// mask per group.
 Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
                         const PointColumns& columns, const unsigned char* leavers);
 
-/// Hand the outboxes over; makes and drops patches as needed. Returns true when the topology changed (relink!).
+/// Hand the outboxes over; makes and drops patches as needed. Returns true when the topology
+/// changed (relink!).
 bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
 
 /// Make the padding lanes of the last group copies of the last point with mass 0.
@@ -32,6 +35,7 @@ void pad(Patch& patch, int stride, int mass_offset);
 void append(Patch& patch, const double* point, int stride);
 
 /// Kinetic energy of point `i` of a patch, affine part included (second moment h^2/4) [J].
-double point_kinetic(const Patch& patch, int i, const PointColumns& columns, const GridGeometry& geometry);
+double point_kinetic(const Patch& patch, int i, const PointColumns& columns,
+                     const GridGeometry& geometry);
 
 }  // namespace krater

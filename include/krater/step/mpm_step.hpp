@@ -2,9 +2,11 @@
 #pragma once
 /// \file step/mpm_step.hpp
 /// One time step of the Material Point Method (theory 2-4, 11, 12):
-///   particles_to_grid -> fold symmetry planes -> momentum -> walls -> grid_to_particles (+ stresses) -> migrate.
-/// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from the projection.
-/// usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
+///   particles_to_grid -> fold symmetry planes -> momentum -> walls -> grid_to_particles (+
+///   stresses) -> migrate.
+/// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
+/// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
+/// (Hammerquist & Nairn 2017) before the gather.
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,13 +26,14 @@ struct StepFault {
 
 class MpmStep {
  public:
-  /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`: the same kernels
-  /// without the affine part, for projections of point velocities alone.
-  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, const Kernels& kernels,
-          const Kernels& plain, const std::vector<BodyKernelData>& bodies);
+  /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
+  /// the same kernels without the affine part, for projections of point velocities alone.
+  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
+          const Kernels& kernels, const Kernels& plain, const std::vector<BodyKernelData>& bodies);
 
-  /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would move material by more
-  /// than 0.3 cells (checked on the nodes, before a point is touched). Returns the step taken. Throws StepFault.
+  /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
+  /// move material by more than 0.3 cells (checked on the nodes, before a point is touched).
+  /// Returns the step taken. Throws StepFault.
   double advance(double dt);
 
   Audit& audit() { return audit_; }
@@ -46,7 +49,8 @@ class MpmStep {
   struct GridEnergy {
     double before, after;
   };
-  void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies, double dt);
+  void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
+                         double dt);
   GridEnergy momentum(double& dt, double force_share);
   void halve_until_safe(double& dt, double max_change);
   void filter_velocity();

@@ -2,9 +2,10 @@
 #pragma once
 /// \file step/nodes.hpp
 /// Work on node blocks: the sum of the tiles in their fixed order, and the momentum update
-///   v- = p/m,  dv = dt f/m,  v+ = v- + dv                                            (theory 2, CCF (1))
-/// Nodes lighter than 1e-12 of the lightest point get no force (f/m means nothing there) but keep v = p/m, so that
-/// no momentum is lost; a threshold in kg would break other unit scales.
+///   v- = p/m,  dv = dt f/m,  v+ = v- + dv                                            (theory 2,
+///   CCF (1))
+/// Nodes lighter than 1e-12 of the lightest point get no force (f/m means nothing there) but keep v
+/// = p/m, so that no momentum is lost; a threshold in kg would break other unit scales.
 #include "krater/step/gather.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -35,14 +36,17 @@ void sum_block(const BlockGrid& grid, NodeBlock& block) {
   for (int i = 0; i < kBlockNodes * kNodeDoubles; i += 8) store(block.nodes + i, Pack(0.0));
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
     const TileRef& ref = grid.tile_refs[static_cast<unsigned>(t)];
-    add_tile<Dim>(grid.patches[static_cast<unsigned>(ref.patch)].tile.data(), ref.corner, block.nodes);
+    add_tile<Dim>(grid.patches[static_cast<unsigned>(ref.patch)].tile.data(), ref.corner,
+                  block.nodes);
   }
 }
 
-/// Nodes that hold at least this share of a cell's volume count for the change of velocity that bounds |L| dt.
+/// Nodes that hold at least this share of a cell's volume count for the change of velocity that
+/// bounds |L| dt.
 inline constexpr double kFilledNode = 0.01;
 
-KRATER_FORCE_INLINE void update_block(NodeBlock& block, double dt, double smallest_mass, double cell_volume) {
+KRATER_FORCE_INLINE void update_block(NodeBlock& block, double dt, double smallest_mass,
+                                      double cell_volume) {
   Pack before = 0.0, after = 0.0, change = 0.0;
   for (int first = 0; first < kBlockNodes; first += kLanes) {
     double* record = block.nodes + kNodeDoubles * first;

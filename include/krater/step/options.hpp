@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/options.hpp
-/// What a scene may choose about the method; defaults are those of numerics.md and src/README.md (decisions).
+/// What a scene may choose about the method; defaults are those of numerics.md and src/README.md
+/// (decisions).
 #include <array>
 #include <string>
 
@@ -16,23 +17,24 @@ enum class BoundaryKind { open, symmetry, wall, sticky, velocity };
 
 struct Boundary {
   BoundaryKind kind = BoundaryKind::open;
-  double friction = 0;   ///< wall: Coulomb coefficient
-  Triple velocity{};     ///< kind velocity: prescribed velocity of the nodes on and beyond the plane [m/s]
+  double friction = 0;  ///< wall: Coulomb coefficient
+  Triple velocity{};    ///< kind velocity: prescribed velocity of the nodes on and beyond the plane
+                        ///< [m/s]
   std::string where;
 };
 
 struct MethodOptions {
   Shape shape = Shape::quadratic_bspline;
   Transfer transfer = Transfer::tflip;
-  int xpic_order = 2;                    ///< xpic only
+  int xpic_order = 2;  ///< xpic only
   Update update = Update::usl;
   int points_per_direction = 2;
   bool stagger = true;
-  double jitter = 0;                     ///< fraction of the point spacing
+  double jitter = 0;  ///< fraction of the point spacing
   unsigned seed = 1;
-  bool cell_averaging = true;            ///< numerics A5
-  double flip_fraction = 0.999;          ///< TFLIP alpha where the flow is smooth
-  double flip_fraction_shock = 0.97;     ///< TFLIP alpha where the shock switch is on
+  bool cell_averaging = true;         ///< numerics A5
+  double flip_fraction = 0.999;       ///< TFLIP alpha where the flow is smooth
+  double flip_fraction_shock = 0.97;  ///< TFLIP alpha where the shock switch is on
 };
 
 }  // namespace krater

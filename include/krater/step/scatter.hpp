@@ -2,25 +2,31 @@
 #pragma once
 /// \file step/scatter.hpp
 /// particles_to_grid of one patch:
-///   m_i = sum S m_p,  p_i = sum S m_p (v_p + L_p (x_i - x_p)),  f_i = sum (S m_p b_p - V_p sigma_p . grad S),
-///   V_i = sum S V_p;  axisymmetric: f_r -= V_p sigma_tt S/r_p.
+///   m_i = sum S m_p,  p_i = sum S m_p (v_p + L_p (x_i - x_p)),  f_i = sum (S m_p b_p - V_p sigma_p
+///   . grad S), V_i = sum S V_p;  axisymmetric: f_r -= V_p sigma_tt S/r_p.
 #include "krater/step/cells.hpp"
 #include "krater/step/frames.hpp"
 
 namespace krater::inline KRATER_ISA {
 
 /// A column of the state, or zeros where it does not exist.
-KRATER_FORCE_INLINE ReadView state_view(const Patch& patch, int offset, int stride, const double* zeros) {
+KRATER_FORCE_INLINE ReadView state_view(const Patch& patch, int offset, int stride,
+                                        const double* zeros) {
   return offset < 0 ? ReadView{zeros, 0} : ReadView{patch.records.data() + offset, stride};
 }
 
-/// Pressure that enters the force, 8 per group into w.pressures: p + q, cell-averaged where the flow is smooth.
+/// Pressure that enters the force, 8 per group into w.pressures: p + q, cell-averaged where the
+/// flow is smooth.
 template <int Dim>
-void force_pressures(Patch& patch, const PointColumns& c, const SweepSettings& s, const SweepScratch& w) {
+void force_pressures(Patch& patch, const PointColumns& c, const SweepSettings& s,
+                     const SweepScratch& w) {
   const auto column = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
-  const ReadView p = column(c.pressure), q = column(c.viscous), m = column(c.mass), rho = column(c.density);
+  const ReadView p = column(c.pressure), q = column(c.viscous), m = column(c.mass),
+                 rho = column(c.density);
   double* out = w.pressures;
-  if (s.shock_switch) shock_switch<Dim>(patch, *s.geometry, column(c.position), column(c.indicator), out, patch.beta.data());
+  if (s.shock_switch)
+    shock_switch<Dim>(patch, *s.geometry, column(c.position), column(c.indicator), out,
+                      patch.beta.data());
   if (!s.average_cells) {
     for (int g = 0; g < patch.groups(); ++g) store(out + kLanes * g, p(g) + q(g));
     return;
@@ -31,7 +37,8 @@ void force_pressures(Patch& patch, const PointColumns& c, const SweepSettings& s
   sums.divide();
   for (int g = 0; g < patch.groups(); ++g) {
     const double* cells = out + kLanes * g;
-    const Pack beta = look_up(patch.beta.data(), cells), mean = look_up(sums.value, cells), own = p(g) + q(g);
+    const Pack beta = look_up(patch.beta.data(), cells), mean = look_up(sums.value, cells),
+               own = p(g) + q(g);
     store(out + kLanes * g, fma(beta, mean - own, own));
   }
 }
@@ -44,19 +51,23 @@ struct Channels {
 };
 
 template <class Frame, bool Affine>
-KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c, const SweepScratch& w, int g,
-                                       Channels<Frame::dim>& out) {
+KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c,
+                                       const SweepScratch& w, int g, Channels<Frame::dim>& out) {
   constexpr int D = Frame::dim;
   const auto column = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
   const ReadView x = column(c.position), v = column(c.velocity), b = column(c.body_acceleration);
   const ReadView stress = column(c.stress), L = column(c.affine);
-  const Pack m = column(c.mass)(g), V = m / column(c.density)(g), P = load(w.pressures + kLanes * g);
-  const auto sigma = [&](int i, int j) { return i == j ? stress(g, voigt(i, j)) - P : stress(g, voigt(i, j)); };
+  const Pack m = column(c.mass)(g), V = m / column(c.density)(g),
+             P = load(w.pressures + kLanes * g);
+  const auto sigma = [&](int i, int j) {
+    return i == j ? stress(g, voigt(i, j)) - P : stress(g, voigt(i, j));
+  };
   const Pack zero = 0.0;
   Pack check = m + V;
   for (Pack& channel : out.A) channel = zero;
   out.A[0] = m, out.A[7] = V;
-  for (int a = 0; a < D; ++a) out.A[1 + a] = m * v(g, a), out.A[4 + a] = m * b(g, a), check += out.A[1 + a] + out.A[4 + a];
+  for (int a = 0; a < D; ++a)
+    out.A[1 + a] = m * v(g, a), out.A[4 + a] = m * b(g, a), check += out.A[1 + a] + out.A[4 + a];
   if constexpr (Frame::hoop) out.A[4] = fnma(V, sigma(1, 1) / x(g, 0), out.A[4]), check += out.A[4];
   for (int a = 0; a < D; ++a) {
     for (Pack& channel : out.B[a]) channel = zero;
@@ -71,7 +82,8 @@ KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c
   return check;
 }
 
-/// Every point of the patch, padding included, lies in its block: what follows indexes memory with positions.
+/// Every point of the patch, padding included, lies in its block: what follows indexes memory with
+/// positions.
 template <int Dim>
 bool positions_valid(Patch& patch, const GridGeometry& grid, ReadView x) {
   const PatchOrigin origin = origin_of<Dim>(patch);
@@ -89,10 +101,12 @@ bool positions_valid(Patch& patch, const GridGeometry& grid, ReadView x) {
 }
 
 template <class Frame, class Shape, bool Affine>
-void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w) {
+void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
+                   const SweepScratch& w) {
   constexpr int D = Frame::dim;
   const PointColumns& c = body.columns;
-  if (!positions_valid<D>(patch, *s.geometry, state_view(patch, c.position, c.stride, w.zeros))) return;
+  if (!positions_valid<D>(patch, *s.geometry, state_view(patch, c.position, c.stride, w.zeros)))
+    return;
   force_pressures<D>(patch, c, s, w);
   double* tile = patch.tile.data();
   for (int i = 0; i < tile_nodes(D) * kNodeDoubles; i += 8) store(tile + i, Pack(0.0));
@@ -105,7 +119,8 @@ void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings
     compute_weights<D, Shape, Affine>(*s.geometry, origin, x, half_width, g, lw);
     const Pack check = load_channels<Frame, Affine>(patch, c, w, g, channels);
     const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
-    if (bad != 0 && patch.result.fault.kind == FaultKind::none) patch.result.fault = {FaultKind::not_finite_input, g, bad};
+    if (bad != 0 && patch.result.fault.kind == FaultKind::none)
+      patch.result.fault = {FaultKind::not_finite_input, g, bad};
     for (int l = 0; l < kLanes; ++l) {
       Pack B[D];
       for (int a = 0; a < D; ++a) B[a] = channels.B[a][l];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/transfer_kernels.hpp
-/// The kernels of one frame, shape and instruction-set level, put together (included by kernels_*_hot.cpp only).
+/// The kernels of one frame, shape and instruction-set level, put together (included by
+/// kernels_*_hot.cpp only).
 #include "krater/step/gather_patch.hpp"
 #include "krater/step/nodes.hpp"
 
@@ -10,30 +11,41 @@ namespace krater::inline KRATER_ISA {
 template <class Frame, class Shape, bool Affine>
 class TransferKernels final : public Kernels {
  public:
-  void scatter(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w) const override {
+  void scatter(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
+               const SweepScratch& w) const override {
     scatter_patch<Frame, Shape, Affine>(patch, body, s, w);
   }
-  void sum_tiles(const BlockGrid& grid, NodeBlock& block) const override { sum_block<Frame::dim>(grid, block); }
-  void momentum(NodeBlock& block, double dt, double smallest_mass, double cell_volume) const override {
+  void sum_tiles(const BlockGrid& grid, NodeBlock& block) const override {
+    sum_block<Frame::dim>(grid, block);
+  }
+  void momentum(NodeBlock& block, double dt, double smallest_mass,
+                double cell_volume) const override {
     update_block(block, dt, smallest_mass, cell_volume);
   }
-  void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body, const SweepSettings& s,
-              const SweepScratch& w, GatherPart part) const override {
+  void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+              const SweepSettings& s, const SweepScratch& w, GatherPart part) const override {
     switch (part) {
-      case GatherPart::all: return run<GatherPart::all>(patch, grid, body, s, w);
-      case GatherPart::velocity_only: return run<GatherPart::velocity_only>(patch, grid, body, s, w);
-      case GatherPart::strain_move: return run<GatherPart::strain_move>(patch, grid, body, s, w);
-      case GatherPart::strain_only: return run<GatherPart::strain_only>(patch, grid, body, s, w);
-      case GatherPart::velocity_move: return run<GatherPart::velocity_move>(patch, grid, body, s, w);
-      case GatherPart::keep_only: return run<GatherPart::keep_only>(patch, grid, body, s, w);
-      case GatherPart::filter_move: return run<GatherPart::filter_move>(patch, grid, body, s, w);
+      case GatherPart::all:
+        return run<GatherPart::all>(patch, grid, body, s, w);
+      case GatherPart::velocity_only:
+        return run<GatherPart::velocity_only>(patch, grid, body, s, w);
+      case GatherPart::strain_move:
+        return run<GatherPart::strain_move>(patch, grid, body, s, w);
+      case GatherPart::strain_only:
+        return run<GatherPart::strain_only>(patch, grid, body, s, w);
+      case GatherPart::velocity_move:
+        return run<GatherPart::velocity_move>(patch, grid, body, s, w);
+      case GatherPart::keep_only:
+        return run<GatherPart::keep_only>(patch, grid, body, s, w);
+      case GatherPart::filter_move:
+        return run<GatherPart::filter_move>(patch, grid, body, s, w);
     }
   }
 
  private:
   template <GatherPart Part>
-  static void run(Patch& patch, const BlockGrid& grid, const BodyKernelData& body, const SweepSettings& s,
-                  const SweepScratch& w) {
+  static void run(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+                  const SweepSettings& s, const SweepScratch& w) {
     gather_patch<Frame, Shape, Affine, Part>(patch, grid, body, s, w);
   }
 };
@@ -48,7 +60,8 @@ Kernels* make_transfer_kernels(KernelShape shape, bool affine) {
     case KernelShape::gimp:
       if (affine) return new TransferKernels<Frame, Gimp, true>;
       return new TransferKernels<Frame, Gimp, false>;
-    case KernelShape::quadratic_bspline: break;
+    case KernelShape::quadratic_bspline:
+      break;
   }
   if (affine) return new TransferKernels<Frame, QuadraticBSpline, true>;
   return new TransferKernels<Frame, QuadraticBSpline, false>;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/weights.hpp
-/// Weights of 8 points at a time, and the tensor-product scatter and gather of one point over its 3^dim nodes
-/// (numerics C3): weights are computed over points, the sums run over the 8 channels of a node record.
+/// Weights of 8 points at a time, and the tensor-product scatter and gather of one point over its
+/// 3^dim nodes (numerics C3): weights are computed over points, the sums run over the 8 channels of
+/// a node record.
 #include "krater/grid/blocks.hpp"
 #include "krater/grid/shape.hpp"
 #include "krater/points/batch.hpp"
@@ -26,7 +27,8 @@ struct PatchOrigin {
 template <int Dim>
 KRATER_FORCE_INLINE PatchOrigin origin_of(const Patch& patch) {
   PatchOrigin o{};
-  for (int a = 0; a < Dim; ++a) o.first[a] = static_cast<double>(patch.key.i[static_cast<unsigned>(a)] * block_edge(Dim));
+  for (int a = 0; a < Dim; ++a)
+    o.first[a] = static_cast<double>(patch.key.i[static_cast<unsigned>(a)] * block_edge(Dim));
   return o;
 }
 
@@ -39,16 +41,19 @@ KRATER_FORCE_INLINE Pack base_node(Pack s) { return floor(s - 0.5); }
 
 /// Index of a point's cell in its block.
 template <int Dim>
-KRATER_FORCE_INLINE Pack cell_index(const GridGeometry& grid, const PatchOrigin& origin, ReadView x, int g) {
+KRATER_FORCE_INLINE Pack cell_index(const GridGeometry& grid, const PatchOrigin& origin, ReadView x,
+                                    int g) {
   Pack local = 0.0;
   for (int a = 0; a < Dim; ++a)
-    local = local * static_cast<double>(block_edge(Dim)) + (base_node(storage(grid, x(g, a), a)) - origin.first[a]);
+    local = local * static_cast<double>(block_edge(Dim)) +
+            (base_node(storage(grid, x(g, a), a)) - origin.first[a]);
   return local;
 }
 
 template <int Dim, class Shape, bool Lever>
-KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOrigin& origin, ReadView x,
-                                         ReadView half_width, int g, LaneWeights<Dim>& out) {
+KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOrigin& origin,
+                                         ReadView x, ReadView half_width, int g,
+                                         LaneWeights<Dim>& out) {
   Pack local = 0.0;
   for (int a = 0; a < Dim; ++a) {
     const Pack s = storage(grid, x(g, a), a);
@@ -67,21 +72,26 @@ KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOr
   store(out.first_node, local * static_cast<double>(kNodeDoubles));
 }
 
-/// node += S A + sum_a (dS or lever weight)_a B_a over the 3^dim nodes of point `lane`. With Lever the momentum
-/// channels 0-3 of B_a carry m L and weigh with the lever, the force channels 4-7 with the gradient.
+/// node += S A + sum_a (dS or lever weight)_a B_a over the 3^dim nodes of point `lane`. With Lever
+/// the momentum channels 0-3 of B_a carry m L and weigh with the lever, the force channels 4-7 with
+/// the gradient.
 template <int Dim, bool Lever>
-KRATER_FORCE_INLINE void scatter_point(double* tile, const LaneWeights<Dim>& lw, int lane, Pack A, const Pack (&B)[Dim]) {
+KRATER_FORCE_INLINE void scatter_point(double* tile, const LaneWeights<Dim>& lw, int lane, Pack A,
+                                       const Pack (&B)[Dim]) {
   const auto weight = [&](int a, int i) { return Pack(lw.w[a][i][lane]); };
   const auto slope = [&](int a, int i) {
-    if constexpr (Lever) return blend_low<4>(Pack(lw.xw[a][i][lane]), Pack(lw.d[a][i][lane]));
-    else return Pack(lw.d[a][i][lane]);
+    if constexpr (Lever)
+      return blend_low<4>(Pack(lw.xw[a][i][lane]), Pack(lw.d[a][i][lane]));
+    else
+      return Pack(lw.d[a][i][lane]);
   };
   constexpr int T = tile_edge(Dim), z = Dim - 1;
   double* first = tile + static_cast<int>(lw.first_node[lane]);
   const Pack wz[3] = {weight(z, 0), weight(z, 1), weight(z, 2)};
   const Pack gz[3] = {slope(z, 0), slope(z, 1), slope(z, 2)};
   const auto row = [&](double* node, Pack P, Pack Q) {
-    for (int k = 0; k < 3; ++k) store(node + 8 * k, fma(wz[k], P, fma(gz[k], Q, load(node + 8 * k))));
+    for (int k = 0; k < 3; ++k)
+      store(node + 8 * k, fma(wz[k], P, fma(gz[k], Q, load(node + 8 * k))));
   };
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
@@ -92,7 +102,9 @@ KRATER_FORCE_INLINE void scatter_point(double* tile, const LaneWeights<Dim>& lw,
     } else {
       const Pack Bi = wx * B[1], Ci = wx * B[2];
 #pragma GCC unroll 3
-      for (int j = 0; j < 3; ++j) row(first + 8 * T * (T * i + j), fma(weight(1, j), Ai, slope(1, j) * Bi), weight(1, j) * Ci);
+      for (int j = 0; j < 3; ++j)
+        row(first + 8 * T * (T * i + j), fma(weight(1, j), Ai, slope(1, j) * Bi),
+            weight(1, j) * Ci);
     }
   }
 }
@@ -103,7 +115,8 @@ struct Gathered {
   Pack V, G[Dim];
 };
 template <int Dim>
-KRATER_FORCE_INLINE Gathered<Dim> gather_point(const double* halo, const LaneWeights<Dim>& lw, int lane) {
+KRATER_FORCE_INLINE Gathered<Dim> gather_point(const double* halo, const LaneWeights<Dim>& lw,
+                                               int lane) {
   const auto w = [&](int a, int i) { return Pack(lw.w[a][i][lane]); };
   const auto d = [&](int a, int i) { return Pack(lw.d[a][i][lane]); };
   constexpr int T = tile_edge(Dim), z = Dim - 1;

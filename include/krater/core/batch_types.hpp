@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-/// \file points/batch_types.hpp
+/// \file core/batch_types.hpp
 /// Plain data of a batch, the same for every instruction-set level (views over it: batch.hpp).
 
 namespace krater {
 
-/// What went wrong first in a batch; the app turns it into a NumericalError that names body, point and position.
-enum class FaultKind : int { none = 0, not_finite_input, not_finite_velocity, inverted, not_finite_state, no_convergence, moved_too_far };
+/// What went wrong first in a batch; the app turns it into a NumericalError that names body, point
+/// and position.
+enum class FaultKind : int {
+  none = 0,
+  not_finite_input,
+  not_finite_velocity,
+  inverted,
+  not_finite_state,
+  no_convergence,
+  moved_too_far
+};
 struct Fault {
   FaultKind kind = FaultKind::none;
   int group = 0;       ///< lane group in the patch
@@ -15,9 +24,9 @@ struct Fault {
 
 /// Sums and events of one patch in one sweep; summed over patches in patch order.
 struct Ledger {
-  double plastic_work = 0;    ///< [J]
-  double viscous_work = 0;    ///< [J]
-  double plastic_heating = 0; ///< [J] part of plastic work booked as temperature
+  double plastic_work = 0;     ///< [J]
+  double viscous_work = 0;     ///< [J]
+  double plastic_heating = 0;  ///< [J] part of plastic work booked as temperature
   double sound_speed_floors = 0, hugoniot_poles = 0, unconverged = 0;  ///< events counted
 };
 
@@ -29,10 +38,10 @@ struct BatchData {
   int local_stride;     ///< doubles
   const double* zeros;  ///< at least 9 packs of zeros, 64-byte aligned
   int groups;           ///< number of lane groups
-  int count;            ///< number of points; lanes past it in the last group are padding with mass 0
-  int first_group;      ///< index of the first group in the patch, for faults
-  double dt;            ///< [s]
-  double length;        ///< cell size h [m], for viscosity
+  int count;        ///< number of points; lanes past it in the last group are padding with mass 0
+  int first_group;  ///< index of the first group in the patch, for faults
+  double dt;        ///< [s]
+  double length;    ///< cell size h [m], for viscosity
   Ledger* ledger;
   Fault* fault;
 };
