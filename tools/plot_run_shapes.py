@@ -12,6 +12,9 @@ import h5py
 import numpy as np
 from matplotlib import cm, colormaps, colors, patheffects
 
+from plot_run_raster import HALF, Fraction, Raster, box_mean, closed_planes
+
+ABSENT = -1e300
 REFERENCE = "#d6006c"  # far from every colour of the maps below
 SCALES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
 
@@ -26,6 +29,14 @@ class Body:
         self.x = group["coordinates"][()]
         self.fields = group
         self.side = self.spacing(summary)  # of the square or cube that each point stands for
+        self.volume = self.volumes(frame_of(summary, self.x))
+
+    def volumes(self, frame):
+        """Of a full ring in axisymmetry, per length in plane strain."""
+        if "mass" in self.fields and "density" in self.fields:
+            return self.fields["mass"][()] / self.fields["density"][()]
+        return {"axisymmetric": 2 * math.pi * self.x[:, 0] * self.side ** 2,
+                "3d": self.side ** 3}.get(frame, self.side ** 2)
 
     def spacing(self, summary):
         """From the volumes of the points; else half a cell; else the box of the body shared out."""
@@ -70,6 +81,10 @@ class Run:
         self.frame = frame_of(self.summary, np.concatenate([b.x for b in self.bodies(self.numbers[-1])]))
         self.summary["frame"] = self.frame
         self.history = read_history(os.path.join(folder, "history.csv"))
+        self.planes = closed_planes(folder)
+        y = np.concatenate([b.x[:, 1] for b in self.bodies(self.numbers[0])])
+        through = len(y) == 0 or y.min() <= 0 <= y.max() or (1, 0.0, 1) in self.planes
+        self.section_y = 0.0 if through else 0.5 * (y.min() + y.max())
 
     def time(self, number):
         return float(self.file["frames"][number].attrs["time"])
@@ -144,13 +159,19 @@ class Colouring:
         if above:
             self.label += f", largest {high / self.factor:.3g}"
 
-    def of(self, body):
+    def values(self, body):
+        """Of the points; ABSENT in a body without the field."""
         values = body.values(self.field) if self.field else None
-        if values is None:
-            return np.tile(colors.to_rgba("0.7"), (len(body.x), 1))
+        return np.full(len(body.x), ABSENT) if values is None else values
+
+    def rgba(self, values):
         rgba = self.map(self.norm(values / self.factor))
         rgba[~np.isfinite(values)] = colors.to_rgba("red")
+        rgba[np.abs(values / ABSENT - 1) < 1e-6] = colors.to_rgba("0.7")
         return rgba
+
+    def of(self, body):
+        return self.rgba(self.values(body))
 
     def bar(self, figure, **place):
         """Draws the colour bar; False when the bodies have no field to colour them by."""
@@ -161,14 +182,6 @@ class Colouring:
 
 
 # ------------------------------------------------------------------------------------------ shapes
-
-def section(run, body):
-    """Which points to draw, and a picture coordinate, for the plane y = 0."""
-    if run.frame != "3d":
-        return np.ones(len(body.x), bool)
-    h = float(run.summary.get("cell") or 2 * np.median(body.side))
-    return np.abs(body.x[:, 1]) < 0.5 * h
-
 
 def stamp(u, v, reach, shape, order, key):
     """Point in each pixel, -1 where none: of all points whose square covers the pixel (`reach` pixels
@@ -193,47 +206,32 @@ def stamp(u, v, reach, shape, order, key):
     return nearest, best
 
 
-def box_mean(values, reach):
-    """Mean over a square of 2 reach + 1 pixels; zero beyond the edges."""
-    n = 2 * reach + 1
-    for axis in (0, 1):
-        total = np.cumsum(np.pad(values, [(reach + 1, reach) if k == axis else (0, 0) for k in (0, 1)]),
-                          axis=axis)
-        last = total.shape[axis]
-        values = (np.take(total, range(n, last), axis) - np.take(total, range(last - n), axis)) / n
-    return values
-
-
 def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
-    """Each point colours the pixels of its own area nearest to it. Gaps narrower than a point, which
-    squares leave where a body is stretched, are closed; the outline stays that of the squares. An
-    axisymmetric half is mirrored about its axis."""
-    pixel = max(box[1] - box[0], box[3] - box[2]) / pixels
-    shape = (int((box[3] - box[2]) / pixel) + 1, int((box[1] - box[0]) / pixel) + 1)
-    image = np.ones(shape + (4,))
+    """Material where the volume fraction of a body is above 1/2, coloured by the mean about each pixel;
+    points that it does not show, or whose value is no number, as squares of their own area."""
+    raster = Raster(box * mm, float(run.summary.get("cell") or 2 * np.median(bodies[0].side)), pixels)
+    image, most = np.ones(raster.shape + (4,)), np.full(raster.shape, HALF)
     for body in bodies:
-        keep = section(run, body)
-        x, z = body.x[keep, 0] / mm, body.x[keep, 2] / mm
-        half = np.maximum(0.5 * body.side[keep] / mm / pixel, 0.5)  # a pixel at least
-        rgba = colouring.of(body)[keep]
-        if run.frame == "axisymmetric":
-            x, z, half = np.concatenate([x, -x]), np.tile(z, 2), np.tile(half, 2)
-            rgba = np.tile(rgba, (2, 1))
-        u, v = (x - box[0]) / pixel, (z - box[2]) / pixel
-        order = np.arange(len(u))
-
-        def distance(points, rows, columns, u=u, v=v, half=half):
-            return np.maximum(np.abs(columns + 0.5 - u[points]), np.abs(rows + 0.5 - v[points])) \
-                / half[points]
-
-        nearest, away = stamp(u, v, np.ceil(2 * half), shape, order, distance)
-        covered = away <= 1
-        gap = max(int(np.median(half)), 1)
-        closed = box_mean(box_mean(covered * 1.0, gap) > 1e-9, gap) > 1 - 1e-9
-        covered |= closed & (nearest >= 0)
-        image[covered] = rgba[nearest[covered]]
-    extent = (box[0], box[0] + shape[1] * pixel, box[2], box[2] + shape[0] * pixel)
-    axes.imshow(image, origin="lower", extent=extent, interpolation="antialiased")
+        body_in = Fraction(raster, run.frame, body.x, body.volume, run.planes, run.section_y)
+        values = colouring.values(body)
+        shown = body_in.phi >= most
+        most[shown] = body_in.phi[shown]
+        image[shown] = colouring.rgba(body_in.mean(values))[shown]
+        alone = np.union1d(body_in.isolated(), np.flatnonzero(~np.isfinite(values[body_in.index])))
+        if run.frame == "3d":  # of those beside the plane, the nearest
+            alone = alone[np.abs(body.x[body_in.index[alone], 1] - run.section_y) <= 0.5 * raster.h]
+        if len(alone):
+            u, v = (body_in.places[alone] + 0.5).T
+            half = np.maximum(0.5 * body.side[body_in.index[alone]] / raster.pixel, 0.5)
+            nearest, away = stamp(u, v, np.ceil(half), raster.shape, np.arange(len(alone)),
+                                  lambda points, rows, columns, u=u, v=v, half=half: np.maximum(
+                                      np.abs(columns + 0.5 - u[points]), np.abs(rows + 0.5 - v[points]))
+                                  / half[points])
+            bad = ~np.isfinite(values[body_in.index[alone]])
+            marked = (away <= 1) & ((most <= HALF) | bad[nearest])
+            marked &= ~body_in.beyond
+            image[marked] = colouring.rgba(values[body_in.index[alone]])[nearest[marked]]
+    axes.imshow(image, origin="lower", extent=raster.extent(mm), interpolation="antialiased")
     axes.set_aspect("equal")
 
 

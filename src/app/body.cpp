@@ -172,6 +172,21 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
     set(field::Velocity::info, a, velocity[i]);
     set(field::HalfWidth::info, a, seed.half_width[i]);
   }
+  if (options_->velocity && carries_affine(scene.method.transfer)) {
+    // The affine part holds part of a spinning body's angular momentum and energy: differences over
+    // the point's own domain, exact for a linear field.
+    for (int a = 0; a < dim; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      Triple low = seed.x, high = seed.x;
+      low[i] -= seed.half_width[i], high[i] += seed.half_width[i];
+      const Triple before = (*options_->velocity)(low, low, 0);
+      const Triple after = (*options_->velocity)(high, high, 0);
+      for (int k = 0; k < dim; ++k) {
+        const auto j = static_cast<std::size_t>(k);
+        set(field::AffineVelocity::info, dim * k + a, (after[j] - before[j]) / (high[i] - low[i]));
+      }
+    }
+  }
   for (int k = 0; k < 9; k += 4) set(field::DeformationGradient::info, k, 1.0);
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/command_line.hpp"
 
+#include <cstdio>
+#include <string>
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "krater/app/progress.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
+#include "krater/output/results.hpp"
 
 namespace krater {
 
@@ -29,19 +34,38 @@ int dispatch(const CLI::App& run_command, const CLI::App& check_command, const R
       print_check(options);
     else
       print_models(model.empty() ? nullptr : model.c_str());
-    return kDone;
+    if (std::fflush(stdout) == 0) return kDone;
+    say("krater: standard output cannot be written");
+    return kBadInput;
   } catch (const InputError& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    say(e.what());
+    return kBadInput;
+  } catch (const OutputError& e) {
+    say(
+        fmt::format("krater: {}; make room, or choose another folder with -o (the last checkpoint "
+                    "is whole)",
+                    e.what()));
     return kBadInput;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "krater: not enough memory for this scene: use a larger grid.cell or fewer "
-               "points_per_direction\n");
+    say("krater: not enough memory for this scene: use a larger grid.cell or fewer "
+        "points_per_direction");
     return kBadInput;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "krater: {}\n", e.what());
+    say(fmt::format("krater: {}", e.what()));
     return kNumericalFailure;
   }
+}
+
+/// CLI11 says only that a command is missing.
+bool report_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return false;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  say(fmt::format("krater: unknown command '{}' (known: {}); see krater --help", argv[1], known));
+  return true;
 }
 
 }  // namespace
@@ -68,6 +92,7 @@ int command_line(int argc, char** argv) {
   CLI::App* models_command =
       app.add_subcommand("models", "list the material laws, or describe one");
   models_command->add_option("name", model, "law");
+  if (report_unknown_command(app, argc, argv)) return kBadInput;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

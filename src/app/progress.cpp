@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/progress.hpp"
 
+#include <cstdint>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -11,13 +12,23 @@ namespace krater {
 namespace {
 
 std::string clock_text(double s) {
-  if (s < 60) return fmt::format("{:.0f} s", s);
-  if (s < 3600)
-    return fmt::format("{:.0f} min {:02.0f} s", s / 60 - 0.5, s - 60 * static_cast<int>(s / 60));
-  return fmt::format("{} h {:02d} min", static_cast<int>(s / 3600), static_cast<int>(s / 60) % 60);
+  if (!(s < 1e9)) return "?";
+  const auto whole = static_cast<std::int64_t>(s + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02d} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02d} min", whole / 3600, whole / 60 % 60);
 }
 
+// Start of the line, cleared; and no wrapping meanwhile: a narrow terminal cuts the end off, where
+// a wrapped line would scroll with every renewal.
+constexpr const char *kRenew = "\r\033[K", *kNoWrap = "\033[?7l", *kWrap = "\033[?7h";
+
 }  // namespace
+
+void say(const std::string& line) {
+  std::fputs((line + "\n").c_str(), stderr);
+  std::fflush(stderr);
+}
 
 Progress::Progress(const Simulation& sim, bool quiet)
     : sim_{sim},
@@ -41,16 +52,17 @@ void Progress::show() {
   const double rate = static_cast<double>(sim_.steps() - start_steps_) *
                       static_cast<double>(sim_.point_count()) / elapsed;
   const std::string eta = share > 0 ? clock_text(elapsed * (1 - share) / share) : "?";
-  fmt::print(stderr,
-             "\r\033[K{:5.1f} %  t = {:.3e} s  step {}  dt = {:.2e} s ({})  energy error {:+.2f} % "
-             " {:.2f} M point-steps/s  {} left",
-             100 * sim_.time() / end, sim_.time(), sim_.steps(), sim_.dt(), sim_.limiter(),
-             100 * sim_.audit().error_fraction(), 1e-6 * rate, eta);
+  const std::string line = fmt::format(
+      "{:5.1f} %  {} left  t = {:.3e} s  step {}  dt = {:.2e} s ({})  energy error {:+.2f} %  "
+      "{:.2f} M point-steps/s",
+      100 * sim_.time() / end, eta, sim_.time(), sim_.steps(), sim_.dt(), sim_.limiter(),
+      100 * sim_.audit().error_fraction(), 1e-6 * rate);
+  std::fputs((std::string{kRenew} + kNoWrap + line + kWrap).c_str(), stderr);
   std::fflush(stderr);
 }
 
 void Progress::finish() {
-  if (active_) fmt::print(stderr, "\r\033[K");
+  if (active_) std::fputs(kRenew, stderr);
 }
 
 }  // namespace krater

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/run.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "krater/app/folder_lock.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/snapshot.hpp"
 #include "krater/app/version.hpp"
@@ -23,6 +25,24 @@ extern "C" void on_signal(int) { interrupted = 1; }
 
 std::string default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem().string() + "_out";
+}
+
+/// For a shell.
+std::string quoted(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-+./=:,@%") == std::string::npos)
+    return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string{"'\\''"} : std::string{c};
+  return out + "'";
+}
+
+/// The command that continues a run from its checkpoint.
+std::string continuation(const RunOptions& options, const std::string& folder) {
+  std::string text = "krater run " + quoted(options.scene);
+  for (const std::string& setting : options.overrides) text += " --set " + quoted(setting);
+  if (options.threads > 0) text += fmt::format(" -j {}", options.threads);
+  return text + " -o " + quoted(folder) + " --restart " + quoted(folder + "/checkpoint.h5");
 }
 
 /// Times of the next outputs; survives a restart because it depends on the time reached only.
@@ -55,8 +75,11 @@ class Runner {
 
  private:
   void begin();
+  void resume();
   void write_history();
-  void write_frame();
+  void write_frame(double time);
+  void write_checkpoint();
+  int fail(const std::string& message, Progress& progress);
   Json summary(const std::string& status, double seconds) const;
   int finish(const std::string& status, const std::string& message, int code,
              const Progress& progress);
@@ -65,9 +88,9 @@ class Runner {
   Scene scene_;
   Simulation sim_;
   ResultsFolder results_;
+  FolderLock lock_;
   int frame_ = 0;
   std::int64_t first_step_ = 0;
-  double worst_error_ = 0;
 };
 
 void Runner::begin() {
@@ -77,29 +100,56 @@ void Runner::begin() {
                            {"title", scene_.title},
                            {"frame", std::string{name(scene_.frame)}},
                            {"cell", fmt::format("{:.17g} m", scene_.grid.cell)}});
-  if (options_.restart.empty()) {
+  if (!options_.restart.empty()) resume();
+  evaluate_measures(sim_);  // what cannot be measured is said before anything is written
+  lock_.take(results_.path());
+  try {
     results_.write_text("resolved.yaml", scene_.resolved);
-    write_frame();
-    write_history();
-    return;
+    if (options_.restart.empty()) {
+      write_frame(sim_.time());
+      write_history();
+    } else {
+      results_.truncate_after(sim_.time());
+    }
+    write_checkpoint();
+  } catch (const OutputError& e) {
+    throw InputError(fmt::format("{}; choose another folder with -o", e.what()));
   }
+}
+
+void Runner::resume() {
   const Checkpoint checkpoint = read_checkpoint(options_.restart);
+  try {
+    sim_.restore(checkpoint);
+  } catch (const InputError& e) {
+    throw InputError(options_.restart + ": " + e.what());
+  } catch (const std::out_of_range&) {
+    throw InputError(options_.restart + ": damaged, or written by another version of krater");
+  }
   const CheckpointBlob* text = checkpoint.find("scene");
-  if (text != nullptr && text->text != scene_.resolved)
-    fmt::print(stderr,
-               "krater: note: the scene differs from the one the checkpoint was written with\n");
-  sim_.restore(checkpoint);
+  // The first line names the file.
+  const auto body = [](const std::string& yaml) { return yaml.substr(yaml.find('\n') + 1); };
+  if (text != nullptr && body(text->text) != body(scene_.resolved) && !options_.quiet)
+    say("krater: note: the scene differs from the one the checkpoint was written with");
   const CheckpointBlob* counters = checkpoint.find("output");
   if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
   first_step_ = sim_.steps();
-  results_.truncate_after(sim_.time());
 }
 
 void Runner::write_history() { results_.write_history(history_row(sim_, evaluate_measures(sim_))); }
 
-void Runner::write_frame() {
-  results_.write_frame(make_frame(sim_, frame_));
+void Runner::write_frame(double time) {
+  OutputFrame frame = make_frame(sim_, frame_);
+  frame.time = time;
+  results_.write_frame(frame);
   ++frame_;
+}
+
+void Runner::write_checkpoint() {
+  Checkpoint c = sim_.save();
+  c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
+  c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
+  results_.write_checkpoint(c);
 }
 
 int Runner::go() {
@@ -107,45 +157,48 @@ int Runner::go() {
   Progress progress{sim_, options_.quiet};
   Schedule frames{scene_.output.frames, sim_.time()}, history{scene_.output.history, sim_.time()};
   double last_checkpoint = 0;
-  const auto checkpoint = [&] {
-    Checkpoint c = sim_.save();
-    c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
-    c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
-    results_.write_checkpoint(c);
-    last_checkpoint = progress.seconds();
-  };
-  const auto save_state = [&] {
-    write_history();
-    checkpoint();
-  };
   try {
     while (!sim_.done()) {
       if (interrupted != 0) {
-        save_state();
+        // No row of history: a continued run has none here.
+        write_checkpoint();
         progress.finish();
-        return finish("interrupted",
-                      "interrupted: checkpoint written, continue with --restart " +
-                          results_.path() + "/checkpoint.h5",
-                      kInterrupted, progress);
+        const std::string message = "interrupted: checkpoint written; continue with: " +
+                                    continuation(options_, results_.path());
+        say("krater: " + message);
+        return finish("interrupted", message, kInterrupted, progress);
       }
       sim_.step(std::min(frames.next(), scene_.time.end));
       if (history.due(sim_.time()) || scene_.output.history <= 0 || sim_.done())
         write_history(), history.advance(sim_.time());
-      if (frames.due(sim_.time()) || sim_.done()) write_frame(), frames.advance(sim_.time());
+      if (frames.due(sim_.time()) || sim_.done())
+        write_frame(sim_.time()), frames.advance(sim_.time());
       if (scene_.output.checkpoint_wall > 0 &&
           progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall)
-        checkpoint();
+        write_checkpoint(), last_checkpoint = progress.seconds();
       progress.show();
     }
   } catch (const NumericalError& e) {
-    progress.finish();
-    write_frame();  // the state as it was when the step broke, for a look
-    save_state();
-    return finish("failed", e.what(), kNumericalFailure, progress);
+    return fail(e.what(), progress);
   }
-  checkpoint();
+  write_checkpoint();
   progress.finish();
   return finish("done", "", kDone, progress);
+}
+
+/// The state as it was when the step broke, for a look: a frame and a row just after the last good
+/// time, so that both stay in order and a restart drops them. checkpoint.h5 holds whole states
+/// only: one to continue from with a shorter step must not be lost to a broken one.
+int Runner::fail(const std::string& message, Progress& progress) {
+  progress.finish();
+  say("krater: " + message);
+  if (!sim_.broken()) write_checkpoint();
+  const double after = std::nextafter(sim_.time(), std::numeric_limits<double>::infinity());
+  write_frame(after);
+  std::vector<Quantity> row = history_row(sim_, evaluate_measures(sim_));
+  row.front().value = after;
+  results_.write_history(row);
+  return finish("failed", message, kNumericalFailure, progress);
 }
 
 Json Runner::summary(const std::string& status, double seconds) const {
@@ -176,6 +229,9 @@ Json Runner::summary(const std::string& status, double seconds) const {
   machine["wall_seconds"] = Json::of(seconds);
   const double work =
       static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
+  Json& phases = machine["seconds"];
+  for (std::size_t i = 0; i < phase_names.size(); ++i)
+    phases[phase_names[i]] = Json::of(sim_.stepper().seconds(static_cast<Phase>(i)));
   machine["point_steps_per_second"] = Json::of(seconds > 0 ? work / seconds : 0.0);
   Json& program = j["program"];
   program["version"] = Json::of(v.program);
@@ -191,10 +247,9 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
   results_.flush();
-  if (!message.empty()) fmt::print(stderr, "krater: {}\n", message);
   if (!options_.quiet)
-    fmt::print(stderr, "krater: {} after {} steps, results in {}\n", status, sim_.steps(),
-               results_.path());
+    say(fmt::format("krater: {} after {} steps, results in {}", status, sim_.steps(),
+                    results_.path()));
   return code;
 }
 
@@ -205,10 +260,11 @@ int run(const RunOptions& options) {
   flush_denormals();
   Scene scene = read_scene(options.scene, options.overrides);
   if (!options.quiet)
-    for (const std::string& note : scene.notes) fmt::print(stderr, "krater: note: {}\n", note);
+    for (const std::string& note : scene.notes) say("krater: note: " + note);
   Runner runner{options, std::move(scene)};
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
   return runner.go();
 }
 

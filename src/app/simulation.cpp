@@ -116,7 +116,8 @@ void Simulation::place_points() {
 
 void Simulation::choose_first_step() {
   double fastest = 0, signal = 0;
-  for (const Patch& p : grid_.patches) {
+  for (std::size_t n = 0; n < grid_.patches.size(); ++n) {
+    const Patch& p = grid_.patches[n];
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
     signal = std::max(signal, body.initial_sound_speed() *
@@ -125,13 +126,15 @@ void Simulation::choose_first_step() {
       for (int a = 0; a < geometry_.dimension; ++a) {
         const double* record = p.records.data() + static_cast<std::size_t>(i / kLanes) *
                                                       static_cast<std::size_t>(c.stride);
-        fastest = std::max(fastest, std::abs(record[c.velocity + kLanes * a + i % kLanes]));
+        const double speed = std::abs(record[c.velocity + kLanes * a + i % kLanes]);
+        if (speed > fastest) fastest = speed, first_limit_ = {static_cast<int>(n), i};
       }
   }
   // The closing speed of two bodies is at most twice the greatest speed.
   max_rate_ = (2 * fastest + signal) * geometry_.inv_h;
   dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step
                                         : kFirstStepShare * scene_.time.cfl / max_rate_;
+  first_step_ = dt_free_;
   min_step_ = scene_.time.min_step > 0 ? scene_.time.min_step : kMinStepShare * dt_free_;
 }
 
@@ -146,23 +149,39 @@ const char* Simulation::limiter() const {
   }
 }
 
+std::string Simulation::describe_limit() const {
+  const auto [patch, point] =
+      steps_ > 0 ? std::pair{step_->limiting_patch(),
+                             grid_.patches[static_cast<std::size_t>(step_->limiting_patch())]
+                                 .result.limiting_point}
+                 : first_limit_;
+  const char* field = limiter_kind_ == 0   ? field::SoundSpeed::info.name
+                      : limiter_kind_ == 1 ? field::Velocity::info.name
+                                           : field::Density::info.name;
+  const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+  const int last = std::min(point, p.count - 1);
+  const Column* column = bodies_[static_cast<std::size_t>(p.body)]->layout().find(field);
+  std::string text = fmt::format("limited by {} of {}", limiter(), describe_point(patch, last));
+  for (int k = 0; column != nullptr && k < column->components; ++k)
+    text += fmt::format("{}{:.6g}", k == 0 ? fmt::format("; field '{}' is ", field) : ", ",
+                        value(patch, last, column->offset / kLanes + k));
+  return text;
+}
+
 double Simulation::next_step(double until) {
-  double dt = scene_.time.cfl / max_rate_;
+  const double limit = scene_.time.cfl / max_rate_;
+  double dt = limit;
   if (steps_ > 0)
     dt = std::min(dt, kGrowth * dt_free_);
   else
     dt = dt_free_;
   if (scene_.time.max_step > 0) dt = std::min(dt, scene_.time.max_step);
-  if (!(dt >= min_step_)) {
-    const int p = step_->limiting_patch();
-    const std::string point =
-        p >= 0 && p < static_cast<int>(grid_.patches.size())
-            ? describe_point(p, grid_.patches[static_cast<std::size_t>(p)].result.limiting_point)
-            : std::string{"no point"};
+  // The first steps may be shorter than time.min_step: they only grow towards the limit.
+  if (!(limit >= min_step_) || !(dt >= std::min(min_step_, first_step_)))
     throw NumericalError(
-        fmt::format("time step vanished: {:.3e} s < {:.3e} s at time {:.6e} s, limited by {} of {}",
-                    dt, min_step_, time_, limiter(), point));
-  }
+        fmt::format("time step vanished: {:.3e} s < time.min_step = {:.3e} s; {}; time {:.6e} s, "
+                    "step {}",
+                    std::min(dt, limit), min_step_, describe_limit(), time_, steps_));
   dt_free_ = dt;
   const double left = until - time_;
   if (dt >= left) return left;
@@ -175,6 +194,7 @@ void Simulation::step(double until) {
   try {
     dt_ = step_->advance(asked);
   } catch (const StepFault& fault) {
+    broken_ = true;
     fail(fault);
   }
   if (dt_ < asked) dt_free_ = dt_;

@@ -31,6 +31,13 @@ const char* text_of(FaultKind kind) {
   return "unknown";
 }
 
+/// A state means nothing on another grid.
+std::vector<double> grid_identity(Frame frame, const GridGeometry& g) {
+  std::vector<double> out{static_cast<double>(frame), g.h};
+  for (std::size_t a = 0; a < 3; ++a) out.insert(out.end(), {g.min[a], 1.0 * g.cells[a]});
+  return out;
+}
+
 }  // namespace
 
 std::size_t Simulation::point_count() const {
@@ -153,6 +160,7 @@ Checkpoint Simulation::save() const {
   };
   numbers("clock", {time_, dt_, dt_free_, min_step_, max_rate_});
   integers("counters", {steps_, limiter_kind_});
+  numbers("grid", grid_identity(scene_.frame, geometry_));
   static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
   const auto* audit = reinterpret_cast<const double*>(&step_->audit());
   numbers("audit", std::vector<double>(audit, audit + sizeof(Audit) / sizeof(double)));
@@ -183,9 +191,13 @@ void Simulation::restore(const Checkpoint& checkpoint) {
     throw InputError("checkpoint has no '" + name +
                      "': it belongs to another scene (a body, law or method differs)");
   };
+  if (find("grid").doubles != grid_identity(scene_.frame, geometry_))
+    throw InputError(
+        "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
+        "the scene and the --set options it was written with");
   const auto& clock = find("clock").doubles;
-  time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), min_step_ = clock.at(3),
-  max_rate_ = clock.at(4);
+  time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), max_rate_ = clock.at(4);
+  if (!(scene_.time.min_step > 0)) min_step_ = clock.at(3);
   steps_ = find("counters").integers.at(0);
   limiter_kind_ = static_cast<int>(find("counters").integers.at(1));
   const auto& audit = find("audit").doubles;

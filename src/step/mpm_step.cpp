@@ -46,6 +46,7 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
 }
 
 double MpmStep::advance(double dt) {
+  watch_.start();
   switch (method_.update) {
     case Update::usl:
       dt = step_usl(dt);
@@ -67,6 +68,7 @@ double MpmStep::step_usl(double dt) {
   const GridEnergy grid = momentum(dt, 1);
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
+  lap(Phase::boundary);
   if (method_.transfer == Transfer::xpic) filter_velocity();
   grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
                     dt);
@@ -81,6 +83,7 @@ double MpmStep::step_musl(double dt) {
   const GridEnergy grid = momentum(dt, 1);
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
+  lap(Phase::boundary);
   grid_to_particles(GatherPart::velocity_only, dt);
 
   // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
@@ -90,6 +93,7 @@ double MpmStep::step_musl(double dt) {
   const GridEnergy again = momentum(dt, 0);
   const BoundaryWork wall_again = boundary_.constrain();
   boundary_.mirror();
+  lap(Phase::boundary);
   grid_to_particles(GatherPart::strain_move, dt);
   audit_.transfer_out += grid.after + wall.work - again.before;  // the detour over the points
   audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
@@ -105,12 +109,14 @@ double MpmStep::step_usf(double dt) {
   momentum(dt, 0);
   boundary_.constrain();
   boundary_.mirror();
+  lap(Phase::boundary);
   grid_to_particles(GatherPart::strain_only, dt);
 
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
   const BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
+  lap(Phase::boundary);
   grid_to_particles(GatherPart::velocity_move, dt);
   audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
                    wall.impulse, wall.columns_in_contact);
@@ -163,6 +169,7 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
     patch.result.fault = {};
     kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
   });
+  lap(Phase::scatter);
   throw_faults();
 }
 
@@ -173,6 +180,7 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
     if (!block.at_boundary)
       kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
   });
+  lap(Phase::nodes);
   boundary_.fold();
   for (NodeBlock& block : grid_.node_blocks)
     if (block.at_boundary) kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
@@ -181,6 +189,7 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
     max_change = std::max(max_change, block.sums.max_change);
   if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
     halve_until_safe(dt, max_change);
+  lap(Phase::boundary);
   GridEnergy energy{0, 0};
   for (const NodeBlock& block : grid_.node_blocks) {
     energy.before += block.sums.kinetic_before;
@@ -228,6 +237,7 @@ void MpmStep::filter_velocity() {
     momentum(unused, 0);
     boundary_.constrain();
     boundary_.mirror();
+    lap(Phase::boundary);
     for (std::size_t i = 0; i < total; i += kNodeDoubles)
       for (std::size_t a = i; a < i + 3; ++a) {
         nodes[a] = increment[a] - nodes[a];
@@ -251,6 +261,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
     if (moves && patch.result.fault.kind == FaultKind::none)
       removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, body.columns, w.leavers);
   });
+  lap(Phase::gather);
   throw_faults();
   if (part != GatherPart::keep_only)
     combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
@@ -282,6 +293,7 @@ void MpmStep::migrate() {
     relink();
   else
     provide_memory();  // patches may have grown
+  lap(Phase::migrate);
 }
 
 }  // namespace krater

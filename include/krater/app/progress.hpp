@@ -3,10 +3,15 @@
 /// \file app/progress.hpp
 /// One line on stderr, renewed twice a second, only on a terminal.
 #include <chrono>
+#include <string>
 
 #include "krater/app/simulation.hpp"
 
 namespace krater {
+
+/// A message on stderr. Never throws: a closed terminal or a full disk behind a log file must not
+/// end a run.
+void say(const std::string& line);
 
 class Progress {
  public:

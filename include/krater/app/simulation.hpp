@@ -37,7 +37,8 @@ class Simulation {
   bool done() const { return time_ >= scene_.time.end; }
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
-  const char* limiter() const;  ///< what limits the time step
+  bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
+  const char* limiter() const;             ///< what limits the time step
   int limiter_kind() const {
     return limiter_kind_;
   }  ///< 0 wave speed, 1 material velocity, 2 volume change
@@ -49,6 +50,7 @@ class Simulation {
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
   const BlockGrid& grid() const { return grid_; }
   BlockGrid& grid() { return grid_; }
+  const MpmStep& stepper() const { return *step_; }
   const Audit& audit() const { return step_->audit(); }
   const GridGeometry& geometry() const { return geometry_; }
   Totals totals(int body = -1) const;  ///< of one body, or of all
@@ -67,6 +69,7 @@ class Simulation {
   void choose_first_step();
   void apply_body_force();
   double next_step(double until);
+  std::string describe_limit() const;
   [[noreturn]] void fail(const StepFault& fault) const;
   std::string describe_point(int patch, int point) const;
 
@@ -80,9 +83,12 @@ class Simulation {
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
   double time_ = 0, dt_ = 0, dt_free_ = 0,
-         min_step_ = 0;  ///< dt_free_: before clipping to output times
+         min_step_ = 0;                    ///< dt_free_: before clipping to output times
+  double first_step_ = 0;                  ///< [s]
+  std::pair<int, int> first_limit_{0, 0};  ///< patch and point that limit the first step
   double max_rate_ = 0;
   int limiter_kind_ = 0;
+  bool broken_ = false;
   std::int64_t steps_ = 0;
 };
 

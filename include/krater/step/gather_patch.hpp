@@ -46,11 +46,13 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
       }
     }
     if constexpr (T::velocity || T::move || T::keep) {
-      Pack alpha = s.alpha;
-      if (s.shock_switch)
-        alpha = fma(look_up(patch.beta.data(), cell), Pack(s.alpha - s.alpha_shock),
-                    Pack(s.alpha_shock));
-      move_points<Frame, Part>(view, n, s, alpha, g, sums);
+      Pack alpha = s.alpha, shock = 0.0;
+      if (s.shock_switch) {
+        const Pack beta = look_up(patch.beta.data(), cell);
+        alpha = fma(beta, Pack(s.alpha - s.alpha_shock), Pack(s.alpha_shock));
+        shock = 1.0 - beta;
+      }
+      move_points<Frame, Part>(view, n, s, alpha, shock, g, sums);
     }
     if constexpr (T::last) {
       finish_velocity<Frame, Affine>(view, n, lw, 0.25 * grid.h * grid.h, g, sums);
@@ -59,6 +61,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
                                           first_lanes(patch.count - kLanes * g)));
     }
   }
+  if constexpr (T::velocity) give_back<D, T::last>(patch, s, w, view, sums);
 }
 
 /// ExtraDilatation: tr L -> dt beta (tr_c - tr L).

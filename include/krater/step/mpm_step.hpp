@@ -11,12 +11,18 @@
 #include <string>
 #include <vector>
 
+#include "krater/core/stopwatch.hpp"
 #include "krater/step/audit.hpp"
 #include "krater/step/boundary.hpp"
 #include "krater/step/kernels.hpp"
 #include "krater/step/migrate.hpp"
 
 namespace krater {
+
+/// Phases of a step, for the account of its cost.
+enum class Phase : std::size_t { scatter, nodes, boundary, gather, migrate };
+inline constexpr std::array<const char*, 5> phase_names{"scatter", "nodes", "boundary",
+                                                        "gather_and_stress", "migrate"};
 
 /// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
 struct StepFault {
@@ -36,6 +42,8 @@ class MpmStep {
   /// Returns the step taken. Throws StepFault.
   double advance(double dt);
 
+  /// Wall-clock seconds spent in a phase since construction.
+  double seconds(Phase phase) const { return watch_.seconds(static_cast<std::size_t>(phase)); }
   Audit& audit() { return audit_; }
   const Audit& audit() const { return audit_; }
   double max_rate() const { return max_rate_; }  ///< 1/dt at CFL 1 found by the last step [1/s]
@@ -73,7 +81,10 @@ class MpmStep {
   const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;
   std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
+  void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
+
   Audit audit_;
+  Stopwatch<phase_names.size()> watch_;
   double smallest_mass_ = 0;
   double max_rate_ = 0;
   int limiting_patch_ = -1;

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of a validation study and the parts of its report, for validation/*/make_report.py.
+
+Results lie in validation/NAME/runs_out/ (not in git) and are used again only by the same executable and scene, bit for
+bit: a study can be interrupted and continued, and a report never mixes versions.
+"""
+
+import argparse
+import csv
+import datetime
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+class Run:
+    """A finished run: summary, history and folder."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+            self.summary = json.load(file)
+
+    def measure(self, name):
+        return self.summary["measures"][name]["value"]
+
+    def audit(self, name):
+        return self.summary["audit"][name]
+
+    @property
+    def error(self):
+        """energy_error_fraction in per cent."""
+        return 100 * self.audit("energy_error_fraction")
+
+    @property
+    def wall(self):
+        return self.summary["machine"]["wall_seconds"]
+
+    def history(self):
+        """name -> values."""
+        with open(os.path.join(self.folder, "history.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        names = [title.partition(" [")[0] for title in rows[0]]
+        return {n: np.array([float(v) for v in column]) for n, column in zip(names, zip(*rows[1:]))
+                if n not in ("limiter", "dt_limiter", "dt_limited_by")}
+
+
+def digest(*paths):
+    total = hashlib.sha256()
+    for path in paths:
+        with open(path, "rb") as file:
+            total.update(file.read())
+    return total.hexdigest()[:16]
+
+
+class Study:
+    def __init__(self, file, scene, seconds, description):
+        parser = argparse.ArgumentParser(description=description,
+                                         formatter_class=argparse.RawDescriptionHelpFormatter)
+        parser.add_argument("--budget", type=float, default=float("inf"), metavar="SECONDS",
+                            help="leave out runs that would take the study longer")
+        parser.add_argument("-j", type=int, default=min(os.cpu_count() or 1, 2), metavar="N",
+                            help="cores to use (default: %(default)s)")
+        options = parser.parse_args()
+        self.folder = os.path.dirname(os.path.abspath(file))
+        self.name = os.path.basename(self.folder)
+        self.scene = os.path.join(ROOT, scene)
+        self.krater = os.environ.get("KRATER") or os.path.join(ROOT, "build", "krater")
+        self.cores, self.budget, self.start = options.j, options.budget, time.monotonic()
+        self.identity = digest(self.krater, self.scene, *cards())
+        self.left_out, self.failed, self.lines = [], [], []
+        print(f"{self.name}: about {seconds:.0f} s on 2 quiet cores; {self.krater}; results in "
+              f"{os.path.join(self.folder, 'runs_out')}", flush=True)
+
+    def run(self, label, settings=(), seconds=0.0, threads=1):
+        """Run `label` with --set options; None if it fails or the budget does not allow it."""
+        folder = os.path.join(self.folder, "runs_out", label)
+        wanted = self.identity + " " + " ".join(settings) + "\n"
+        stamp = os.path.join(folder, "identity.txt")
+        if os.path.exists(stamp):
+            with open(stamp, encoding="utf-8") as file:
+                if file.read() == wanted:
+                    return Run(folder)
+        if time.monotonic() - self.start + seconds > self.budget:
+            self.left_out.append(label)
+            return None
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        command = [self.krater, "run", self.scene, "-o", folder, "-j", str(threads), "--quiet"]
+        for setting in settings:
+            command += ["--set", setting]
+        environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
+        begin = time.monotonic()
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+        print(f"  {label}: {time.monotonic() - begin:.1f} s" +
+              (f", exit code {done.returncode}" if done.returncode else ""), flush=True)
+        if done.returncode:
+            words = done.stderr.strip().splitlines()
+            self.failed.append((label, done.returncode, words[-1] if words else ""))
+            return None
+        with open(stamp, "w", encoding="utf-8") as file:
+            file.write(wanted)
+        return Run(folder)
+
+    def run_all(self, jobs):
+        """{label: (settings, seconds)} -> {label: Run or None}, each on one core, as many at a time as
+        there are cores."""
+        with ThreadPoolExecutor(self.cores) as pool:
+            futures = {label: pool.submit(self.run, label, settings, seconds)
+                       for label, (settings, seconds) in jobs.items()}
+            return {label: future.result() for label, future in futures.items()}
+
+    def picture(self, run, name, target):
+        """A picture of tools/plot_run beside the report."""
+        if run is None:
+            return
+        path = os.path.join(run.folder, "pictures", name)
+        if not os.path.exists(path):
+            subprocess.run([sys.executable, os.path.join(ROOT, "tools", "plot_run"), run.folder],
+                           stdout=subprocess.DEVNULL, check=True)
+        shutil.copyfile(path, os.path.join(self.folder, target))
+
+    # ---- the report
+
+    def add(self, *paragraphs):
+        for text in paragraphs:
+            self.lines += [text, ""]
+
+    def add_table(self, titles, rows):
+        self.lines.append("| " + " | ".join(titles) + " |")
+        self.lines.append("| " + " | ".join(["---"] + ["---:"] * (len(titles) - 1)) + " |")
+        self.lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+        self.lines.append("")
+
+    def write(self, title):
+        program = subprocess.run([self.krater, "--version"], capture_output=True, text=True,
+                                 check=False).stdout.strip().replace("\n", ", ")
+        text = [f"# {title}", "", f"{datetime.date.today()}, {program}, {machine()}. Made by `tools/validate "
+                f"{self.name}`; do not edit.", ""] + self.lines
+        if self.left_out:
+            text += [f"Left out for the budget of {self.budget:.0f} s: {', '.join(self.left_out)}.", ""]
+        for label, code, words in self.failed:
+            text += [f"**{label} ended with exit code {code}**: {words}", ""]
+        path = os.path.join(self.folder, "README.md")
+        with open(path + ".part", "w", encoding="utf-8") as file:
+            file.write("\n".join(text).rstrip() + "\n")
+        os.replace(path + ".part", path)
+        print(f"{path} ({time.monotonic() - self.start:.0f} s)")
+
+
+def cards():
+    folder = os.path.join(ROOT, "inputs", "materials")
+    return [os.path.join(folder, name) for name in sorted(os.listdir(folder)) if name.endswith(".yaml")]
+
+
+def machine():
+    model = "unknown processor"
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            model = next((line.partition(":")[2].strip() for line in file if line.startswith("model name")),
+                         model)
+    except OSError:
+        pass
+    return f"{os.cpu_count()} cores of {model}"
+
+
+def order(values, ratio=2.0):
+    """Observed order from the last three of a refinement, None where differences change sign."""
+    if len(values) < 3 or any(v is None for v in values[-3:]):
+        return None
+    first, second = values[-3] - values[-2], values[-2] - values[-1]
+    if first * second <= 0:
+        return None
+    return float(np.log(first / second) / np.log(ratio))
+
+
+def outline(axes, run, number=-1, **options):
+    """The line of volume fraction 1/2 of a 2d run or of the section of a 3d run, in mm."""
+    from plot_run_raster import HALF, Fraction, Raster
+    from plot_run_shapes import Run as Shapes, limits
+    shapes = Shapes(run.folder)
+    number = shapes.numbers[number]
+    raster = Raster(limits(shapes, [number], 1.0), float(run.summary["cell"]), 1000)
+    for body in shapes.bodies(number):
+        phi = Fraction(raster, shapes.frame, body.x, body.volume, shapes.planes, shapes.section_y)
+        low, high, bottom, top = raster.extent(1e-3)
+        rows, columns = raster.shape
+        x = low + (np.arange(columns) + 0.5) * (high - low) / columns
+        z = bottom + (np.arange(rows) + 0.5) * (top - bottom) / rows
+        values = np.ma.array(phi.phi, mask=phi.beyond)
+        axes.contour(x, z, values, levels=[HALF], **options)
+    axes.set_aspect("equal")
+
+
+def widest_points(run, body, band):
+    """Twice the largest radius of point centres within `band` of the lowest point: how codes without a
+    surface measure a foot."""
+    import h5py
+    with h5py.File(os.path.join(run.folder, "frames.h5"), "r") as file:
+        last = file["frames"][sorted(file["frames"])[-1]][body]["coordinates"][()]
+    low = last[last[:, 2] < last[:, 2].min() + band]
+    return 2 * float(np.hypot(low[:, 0], low[:, 1]).max())
