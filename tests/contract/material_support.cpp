@@ -56,6 +56,43 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"johnson_cook.m", 1.09},
       {"johnson_cook.T_ref", 294.0},
       {"johnson_cook.T_melt", 1356.0},
+      {"voce.A", 90e6},
+      {"voce.Q1", 120e6},
+      {"voce.C1", 15.0},
+      {"voce.Q2", 150e6},
+      {"voce.C2", 1.5},
+      {"voce.C", 0.012},
+      {"voce.epsdot0", 5e-4},
+      {"voce.m", 1.09},
+      {"voce.T_ref", 294.0},
+      {"voce.T_melt", 1356.0},
+      {"zerilli_armstrong_fcc.C0", 65e6},
+      {"zerilli_armstrong_fcc.C2", 890e6},
+      {"zerilli_armstrong_fcc.C3", 0.0028},
+      {"zerilli_armstrong_fcc.C4", 0.000115},
+      {"zerilli_armstrong_fcc.epsdot0", 1e-4},
+      {"zerilli_armstrong_bcc.C0", 65e6},
+      {"zerilli_armstrong_bcc.C1", 1033e6},
+      {"zerilli_armstrong_bcc.C3", 0.00698},
+      {"zerilli_armstrong_bcc.C4", 0.000415},
+      {"zerilli_armstrong_bcc.C5", 266e6},
+      {"zerilli_armstrong_bcc.n", 0.289},
+      {"zerilli_armstrong_bcc.epsdot0", 1e-4},
+      {"steinberg_guinan.Y0", 120e6},
+      {"steinberg_guinan.Y_max", 640e6},
+      {"steinberg_guinan.beta", 36.0},
+      {"steinberg_guinan.n", 0.45},
+      {"steinberg_guinan.eps_i", 0.0},
+      {"steinberg_guinan.A", 2.83e-11},
+      {"steinberg_guinan.B", 3.77e-4},
+      {"steinberg_guinan.r", 1.0},
+      {"steinberg_guinan.T_melt", 1790.0},
+      {"steinberg_guinan.a", 1.5},
+      {"steinberg_guinan.gamma0", 2.02},
+      {"drucker_prager.Y", 100e6},
+      {"drucker_prager.alpha", 0.6},
+      {"drucker_prager.dilatancy", 0.2},
+      {"drucker_prager.bulking_limit", 0.05},
       {"neo_hookean.lame_lambda", 1e11},
       {"linear.bulk_modulus", 139e9},
       {"mie_gruneisen_polynomial.a0", 139e9},
@@ -71,7 +108,8 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"plastic_work.cp", 383.0},
   };
   std::vector<double> result;
-  for (const ParameterInfo& p : law.parameters) result.push_back(values.at(law.name + '.' + p.key));
+  const std::string name = law.name == "voce_log" ? "voce" : law.name;
+  for (const ParameterInfo& p : law.parameters) result.push_back(values.at(name + '.' + p.key));
   return result;
 }
 

@@ -6,6 +6,8 @@
 ///   p       = (A + B rho e*) / (1 + B rho dv/2)
 ///   e_{n+1} = e* - p dv/2
 /// The carried pressure does the work and enters momentum; (55) as printed omits the last term.
+/// A strength law may keep voids out of the equation of state, v - void_volume, and limit the
+/// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
 /// c^2 = K_s/rho, floored at 0.01 c0^2 and counted (theory 9).
 #pragma once
 
@@ -32,6 +34,13 @@ KRATER_FORCE_INLINE EnergyStep<Real> close_energy(const PressureSplit<Real>& spl
   return {pressure, fnma(pressure, half_dv, e_star), denominator};
 }
 
+/// The same step with a pressure not below `least`, which then does the work.
+template <class Real>
+KRATER_FORCE_INLINE EnergyStep<Real> limited(const EnergyStep<Real>& step, Real least, Real dv) {
+  const Real pressure = max(least, step.pressure);  // this order keeps a NaN
+  return {pressure, fma(step.pressure - pressure, 0.5 * dv, step.energy), step.denominator};
+}
+
 template <class Law>
 class EosStage final : public Stage {
  public:
@@ -42,7 +51,9 @@ class EosStage final : public Stage {
         e_{layout.state<field::InternalEnergy>(0.0, Law::name)},
         c_{layout.state<field::SoundSpeed>(law.c0, Law::name)},
         volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
-        work_{layout.local_input<field::SpecificWork>(Law::name)} {}
+        work_{layout.local_input<field::SpecificWork>(Law::name)},
+        voids_{layout.optional<field::VoidVolume>()},
+        tension_limit_{layout.local_optional<field::TensionLimit>()} {}
 
   StageOrder order() const override { return StageOrder::equation_of_state; }
 
@@ -55,14 +66,20 @@ class EosStage final : public Stage {
     const auto w_p = view(batch, work_);
     const Pack floor = Pack(0.01 * law_.c0 * law_.c0);
     for (int g = 0; g < batch.groups; ++g) {
-      const Pack rho = rho_p(g);
-      const Pack v = v_p(g, 1);
+      Pack rho = rho_p(g);
+      Pack v = v_p(g, 1);
+      const Pack per_rho = v;
       const Pack dv = v - v_p(g, 0);
-      const EnergyStep<Pack> step = close_energy(law_.split(rho, v), p_p(g), e_p(g), dv, w_p(g));
+      if (voids_.offset >= 0) {
+        v = v - view(batch, voids_)(g);
+        rho = 1.0 / v;
+      }
+      EnergyStep<Pack> step = close_energy(law_.split(rho, v), p_p(g), e_p(g), dv, w_p(g));
+      if (tension_limit_.offset >= 0) step = limited(step, view(batch, tension_limit_)(g), dv);
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
       p_p.set(g, step.pressure);
       e_p.set(g, step.energy);
-      const Pack c_squared = law_.bulk_modulus(rho, v, step.pressure, step.energy) * v;
+      const Pack c_squared = law_.bulk_modulus(rho, v, step.pressure, step.energy) * per_rho;
       c_p.set(g, sqrt(max(floor, c_squared)));  // this order keeps a NaN
       const Mask floored = c_squared < floor;
       if (any(floored)) batch.ledger->sound_speed_floors += count_points(batch, g, floored);
@@ -81,6 +98,8 @@ class EosStage final : public Stage {
   State<field::SoundSpeed> c_;
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::SpecificWork> work_;
+  Optional<field::VoidVolume> voids_;
+  LocalOptional<field::TensionLimit> tension_limit_;
 };
 
 }  // namespace krater::inline KRATER_ISA

@@ -9,10 +9,14 @@
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
+#include "krater/materials/strength/drucker_prager.hpp"
 #include "krater/materials/strength/elastic.hpp"
 #include "krater/materials/strength/johnson_cook.hpp"
 #include "krater/materials/strength/neo_hookean.hpp"
+#include "krater/materials/strength/steinberg_guinan.hpp"
+#include "krater/materials/strength/voce.hpp"
 #include "krater/materials/strength/von_mises.hpp"
+#include "krater/materials/strength/zerilli_armstrong.hpp"
 #include "krater/materials/viscosity/bulk_viscosity.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -25,6 +29,12 @@ struct LawList {
 using AllLaws = LawList<Elastic,                 //
                         VonMises,                //
                         JohnsonCook,             //
+                        Voce,                    //
+                        VoceLog,                 //
+                        ZerilliArmstrongFcc,     //
+                        ZerilliArmstrongBcc,     //
+                        SteinbergGuinan,         //
+                        DruckerPrager,           //
                         NeoHookean,              //
                         LinearEos,               //
                         MieGruneisenPolynomial,  //

@@ -21,9 +21,9 @@ struct Trial {
   Real strain;  ///< equivalent strain increment
 };
 
-template <class Real>
+template <class Real, class Modulus>
 KRATER_FORCE_INLINE Trial<Real> trial_step(const Sym3<Real>& s, const Mat3<Real>& dtL,
-                                           const Sym3<Real>& dE, double G) {
+                                           const Sym3<Real>& dE, Modulus G) {
   const Sym3<Real> trial = trial_deviator(s, dtL, G);
   return {trial, equivalent_stress(trial), equivalent_strain(dE)};
 }
@@ -46,10 +46,12 @@ template <class Real, class Law>
 KRATER_FORCE_INLINE DeviatorUpdate<Real> update_deviator(const Law& law, const Sym3<Real>& s,
                                                          const Mat3<Real>& dtL,
                                                          const Sym3<Real>& dE, Real eps,
-                                                         Real temperature, double G, double dt) {
+                                                         const StartState<Real>& start, double G0,
+                                                         double dt) {
+  const auto G = shear_at(law, start, G0);
   const Trial<Real> trial = trial_step(s, dtL, dE, G);
   const PlasticStep<Real> step =
-      radial_return(law.at(temperature), trial.q, eps, G, trial.strain, dt);
+      radial_return(curve_at(law, start), trial.q, eps, G, trial.strain, dt);
   return {returned(trial, step), step};
 }
 
@@ -66,6 +68,7 @@ class StrengthStage final : public Stage {
   StrengthStage(const Law& law, const MaterialConstants& constants, Layout& layout)
       : law_{law},
         G_{constants.shear_modulus},
+        per_rho0_{1.0 / constants.density},
         s_{layout.state<field::DeviatoricStress>(0.0, Law::name)},
         mass_{layout.input<field::Mass>(Law::name)},
         dtL_{layout.local_input<field::StepGradient>(Law::name)},
@@ -81,6 +84,11 @@ class StrengthStage final : public Stage {
         temperature_ = {
             layout.state<field::Temperature>(constants.initial_temperature, Law::name).offset};
       }
+      if constexpr (ReadsPressure<Law>) pressure_ = layout.input<field::Pressure>(Law::name);
+      if constexpr (Dilatant<Law>) {
+        voids_ = layout.state<field::VoidVolume>(0.0, Law::name);
+        tension_limit_ = layout.local_output<field::TensionLimit>(Law::name);
+      }
     }
   }
 
@@ -94,60 +102,92 @@ class StrengthStage final : public Stage {
     } else {
       for (int g = 0; g < batch.groups; ++g) {
         const Mat3<Pack> dtL = load_mat3(view(batch, dtL_), g);
-        finish(batch, g, trial_deviator(load_sym3(view(batch, s_), g), dtL, G_));
+        finish(batch, g, trial_deviator(load_sym3(view(batch, s_), g), dtL, G_), Pack(G_));
       }
     }
   }
 
  private:
-  KRATER_FORCE_INLINE Trial<Pack> trial(const BatchData& batch, int g) const {
+  KRATER_FORCE_INLINE StartState<Pack> start(const BatchData& batch, int g) const {
+    StartState<Pack> state{Pack(0.0)};
+    if constexpr (Law::reads_temperature) state.temperature = view(batch, temperature_)(g);
+    if constexpr (ReadsPressure<Law>) {
+      state.pressure = view(batch, pressure_)(g);
+      state.compression = Pack(per_rho0_) / view(batch, volumes_)(g, 0);
+    }
+    return state;
+  }
+
+  template <class Modulus>
+  KRATER_FORCE_INLINE Trial<Pack> trial(const BatchData& batch, int g, Modulus G) const {
     return trial_step(load_sym3(view(batch, s_), g), load_mat3(view(batch, dtL_), g),
-                      load_sym3(view(batch, strain_), g), G_);
+                      load_sym3(view(batch, strain_), g), G);
   }
 
   KRATER_FORCE_INLINE void apply_pair(const BatchData& batch, int g, int h) const {
-    const Trial<Pack> trial_g = trial(batch, g);
-    const Trial<Pack> trial_h = trial(batch, h);
+    const StartState<Pack> start_g = start(batch, g), start_h = start(batch, h);
+    const auto G_g = shear_at(law_, start_g, G_), G_h = shear_at(law_, start_h, G_);
+    const Trial<Pack> trial_g = trial(batch, g, G_g);
+    const Trial<Pack> trial_h = trial(batch, h, G_h);
     const auto eps = view(batch, eps_);
-    PackPair temperature = PackPair(0.0);
-    if constexpr (Law::reads_temperature) {
-      const auto T = view(batch, temperature_);
-      temperature = {T(g), T(h)};
-    }
+    const StartState<PackPair> start_both{{start_g.temperature, start_h.temperature},
+                                          {start_g.pressure, start_h.pressure},
+                                          {start_g.compression, start_h.compression}};
     const PlasticStep<PackPair> step = radial_return(
-        law_.at(temperature), PackPair{trial_g.q, trial_h.q}, PackPair{eps(g), eps(h)}, G_,
-        PackPair{trial_g.strain, trial_h.strain}, batch.dt);
-    yield(batch, g, trial_g, {step.d.a, step.stress.a, step.yielding.a, step.unconverged.a});
+        curve_at(law_, start_both), PackPair{trial_g.q, trial_h.q}, PackPair{eps(g), eps(h)},
+        both(G_g, G_h), PackPair{trial_g.strain, trial_h.strain}, batch.dt);
+    yield(batch, g, trial_g, G_g, {step.d.a, step.stress.a, step.yielding.a, step.unconverged.a});
     if (h != g)
-      yield(batch, h, trial_h, {step.d.b, step.stress.b, step.yielding.b, step.unconverged.b});
+      yield(batch, h, trial_h, G_h, {step.d.b, step.stress.b, step.yielding.b, step.unconverged.b});
   }
 
-  KRATER_FORCE_INLINE void yield(const BatchData& batch, int g, const Trial<Pack>& trial,
+  /// The moduli of two groups: one double where the law's does not vary.
+  KRATER_FORCE_INLINE static double both(double G, double) { return G; }
+  KRATER_FORCE_INLINE static PackPair both(Pack G, Pack H) { return {G, H}; }
+
+  /// Specific plastic work q d v; less the work of opening voids against the pressure.
+  KRATER_FORCE_INLINE Pack plastic_work(const BatchData& batch, int g,
+                                        const PlasticStep<Pack>& step) const {
+    const Pack v = view(batch, volumes_)(g, 1);
+    const Pack work = step.stress * step.d * v;
+    if constexpr (Dilatant<Law>) {
+      const auto voids = view(batch, voids_);
+      const Pack opened = law_.bulking(voids(g), v) * step.d;
+      voids.set(g, voids(g) + opened);
+      view(batch, tension_limit_).set(g, Pack(law_.tension_limit()));
+      return max(Pack(0.0), fnma(view(batch, pressure_)(g), opened, work));
+    }
+    return work;
+  }
+
+  template <class Modulus>
+  KRATER_FORCE_INLINE void yield(const BatchData& batch, int g, const Trial<Pack>& trial, Modulus G,
                                  const PlasticStep<Pack>& step) const {
     const auto eps = view(batch, eps_);
-    const Pack plastic_work = step.stress * step.d * view(batch, volumes_)(g, 1);
+    const Pack work = plastic_work(batch, g, step);
     eps.set(g, eps(g) + step.d);
-    view(batch, plastic_work_).set(g, plastic_work);
-    batch.ledger->plastic_work += sum(view(batch, mass_)(g) * plastic_work);
+    view(batch, plastic_work_).set(g, work);
+    batch.ledger->plastic_work += sum(view(batch, mass_)(g) * work);
     if (any(step.unconverged)) {
       batch.ledger->unconverged += count_points(batch, g, step.unconverged);
       report(batch, FaultKind::no_convergence, g, step.unconverged);
     }
-    finish(batch, g, returned(trial, step));
+    finish(batch, g, returned(trial, step), Pack(G));
   }
 
-  KRATER_FORCE_INLINE void finish(const BatchData& batch, int g, const Sym3<Pack>& s) const {
+  KRATER_FORCE_INLINE void finish(const BatchData& batch, int g, const Sym3<Pack>& s,
+                                  Pack G) const {
     const auto s_p = view(batch, s_);
     const auto v = view(batch, volumes_);
     const auto work = view(batch, work_);
     const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
     work.set(g, work(g) + deviatoric_work(load_sym3(s_p, g), s, dE, v(g, 0), v(g, 1)));
     store_sym3(s_p, g, s);
-    view(batch, shear_).set(g, Pack(G_));
+    view(batch, shear_).set(g, G);
   }
 
   Law law_;
-  double G_;
+  double G_, per_rho0_;
   State<field::DeviatoricStress> s_;
   Input<field::Mass> mass_;
   LocalInput<field::StepGradient> dtL_;
@@ -158,6 +198,9 @@ class StrengthStage final : public Stage {
   State<field::PlasticStrain> eps_{-1};  // these three: yielding laws only
   LocalOutput<field::PlasticWork> plastic_work_{-1};
   Input<field::Temperature> temperature_{-1};
+  Input<field::Pressure> pressure_{-1};  // laws that read it only
+  State<field::VoidVolume> voids_{-1};   // these two: dilatant laws only
+  LocalOutput<field::TensionLimit> tension_limit_{-1};
 };
 
 }  // namespace krater::inline KRATER_ISA

@@ -48,6 +48,9 @@ KRATER_FIELD(ViscousPressure, "viscous_pressure", "Pa", 1, "artificial viscous p
 KRATER_FIELD(InternalEnergy, "internal_energy", "J/kg", 1, "specific internal energy");
 KRATER_FIELD(Temperature, "temperature", "K", 1, "temperature");
 KRATER_FIELD(PlasticStrain, "plastic_strain", "1", 1, "accumulated equivalent plastic strain");
+KRATER_FIELD(
+    VoidVolume, "void_volume", "m^3/kg", 1,
+    "specific volume of voids opened by plastic flow; the equation of state does not see it");
 KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last update, undamaged");
 KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1,
              "|tr D| h / c of the last update: switches cell averaging off");
@@ -73,6 +76,8 @@ KRATER_FIELD(SpecificVolumes, "specific_volumes", "m^3/kg", 2, "v_n and v_n+1");
 KRATER_FIELD(SpecificWork, "specific_work", "J/kg", 1,
              "work of deviator and viscosity in the step");
 KRATER_FIELD(ShearModulus, "shear_modulus", "Pa", 1, "undamaged shear modulus of the step");
+KRATER_FIELD(TensionLimit, "tension_limit", "Pa", 1,
+             "lowest pressure that the strength law lets the material carry");
 KRATER_FIELD(PlasticWork, "plastic_work", "J/kg", 1, "q d / rho of the step");
 KRATER_FIELD(SignalSpeed, "signal_speed", "m/s", 1, "Qv + sqrt(Qv^2 + c_L^2), theory 12");
 

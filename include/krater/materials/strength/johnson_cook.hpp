@@ -6,9 +6,9 @@
 /// factor is 1 (the static curve); at T >= T_melt there is no strength at all.
 #pragma once
 
-#include "krater/core/lane_math.hpp"
 #include "krater/materials/law.hpp"
 #include "krater/materials/strength/flow.hpp"
+#include "krater/materials/strength/softening.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -47,15 +47,6 @@ struct JohnsonCook {
   }
   const char* problem() const { return T_melt > T_ref ? nullptr : "T_melt must lie above T_ref"; }
 
-  /// x^y for x >= 0, y > 0, good to a few |y log x| ulp; `pow` carries the logarithm in two parts,
-  /// at half the speed. Zero, the value of most points, is kept out of the exponential: its
-  /// underflow costs a hundred cycles. The order of the operands lets a NaN through.
-  template <class Real>
-  KRATER_FORCE_INLINE static Real power(Real x, double y) {
-    constexpr double nothing = 1e-100;
-    return select(x <= Real(nothing), Real(0.0), exp(y * log(max(Real(nothing), x))));
-  }
-
   template <class Real>
   struct Curve {
     const JohnsonCook& law;
@@ -66,7 +57,7 @@ struct JohnsonCook {
       Real power_term;  ///< B eps^n thermal
     };
     KRATER_FORCE_INLINE Hardening hardening(Real eps) const {
-      const Real power_term = law.B * power(eps, law.n) * thermal;
+      const Real power_term = law.B * positive_power(eps, law.n) * thermal;
       return {fma(Real(law.A), thermal, power_term), power_term};
     }
     KRATER_FORCE_INLINE Flow<Real> flow(const Hardening& h, Real eps, Real rate) const {
@@ -88,8 +79,7 @@ struct JohnsonCook {
 
   template <class Real>
   KRATER_FORCE_INLINE Curve<Real> at(Real temperature) const {
-    const Real t = clamp((temperature - T_ref) * per_range, Real(0.0), Real(1.0));
-    return {*this, Real(1.0) - power(t, m)};
+    return {*this, thermal_factor(temperature, T_ref, per_range, m)};
   }
 };
 

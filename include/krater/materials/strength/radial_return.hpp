@@ -55,10 +55,21 @@ KRATER_FORCE_INLINE Real first_guess(const Flow<Real>& flow, Real q_trial, Real 
   return select(developed, tangent, crude);
 }
 
-/// `strain`: equivalent strain increment of the step, the first guess of d.
+/// No kink of the curve between two strains; most have none.
 template <class Real, class Curve>
+KRATER_FORCE_INLINE MaskOf<Real> smooth_in_strain(const Curve& curve, Real eps0, Real eps1) {
+  if constexpr (requires { curve.smooth_between_strains(eps0, eps1); }) {
+    return curve.smooth_between_strains(eps0, eps1);
+  } else {
+    return Real(0.0) == Real(0.0);
+  }
+}
+
+/// `strain`: equivalent strain increment of the step, the first guess of d. `G`: a double or a
+/// Real.
+template <class Real, class Curve, class Modulus>
 KRATER_FORCE_INLINE PlasticStep<Real> radial_return(const Curve& curve, Real q_trial, Real eps,
-                                                    double G, Real strain, double dt) {
+                                                    Modulus G, Real strain, double dt) {
   constexpr int cap = 100;
   // A tenth of what is promised (1e-10 of yield); q_trial's own round-off where strength is next to
   // nothing.
@@ -95,7 +106,8 @@ KRATER_FORCE_INLINE PlasticStep<Real> radial_return(const Curve& curve, Real q_t
       const Real bend = 2.0 * (step * step) * fma(flow.bend, x, rate_slope);
       const MaskOf<Real> sure = inside & (bend <= 2.0 * tolerance * flow.stress * x) &
                                 (abs(step) <= 0.01 * x) &
-                                curve.smooth_between(x * per_dt, next * per_dt);
+                                curve.smooth_between(x * per_dt, next * per_dt) &
+                                smooth_in_strain(curve, eps + x, eps + next);
       d = select(active, select(exact, x, next), d);
       stress = select(active, select(exact, flow.stress, fnma(three_G, next, q_trial)), stress);
       x = select(active, next, x);

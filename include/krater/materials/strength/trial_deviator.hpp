@@ -39,9 +39,10 @@ KRATER_FORCE_INLINE Real isotropic_part(const Sym3<Real>& X) {
   return delta + 1.0;
 }
 
-template <class Real>
+/// `G`: a double or a Real, the same for s_n and s_tr (strength/steinberg_guinan.hpp says why).
+template <class Real, class Modulus>
 KRATER_FORCE_INLINE Sym3<Real> trial_deviator(const Sym3<Real>& s, const Mat3<Real>& dtL,
-                                              double G) {
+                                              Modulus G) {
   const Sym3<Real> X = Real(1.0 / G) * s;
   const Real a = isotropic_part(X);
   const Sym3<Real> b = {X.xx + a, X.yy + a, X.zz + a, X.yz, X.xz, X.xy};
