@@ -5,6 +5,7 @@
 ///   e*      = e_n - p_n dv/2 + w,     w = viscous and deviatoric work of the step (SpecificWork)
 ///   p       = (A + B rho e*) / (1 + B rho dv/2)
 ///   e_{n+1} = e* - p dv/2
+/// Where p is not linear in e (tillotson), A and B rho are the tangent at e_{n+1}, found by Newton.
 /// The carried pressure does the work and enters momentum; (55) as printed omits the last term.
 /// A strength law may keep voids out of the equation of state, v - void_volume, and limit the
 /// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
@@ -34,6 +35,31 @@ KRATER_FORCE_INLINE EnergyStep<Real> close_energy(const PressureSplit<Real>& spl
   return {pressure, fnma(pressure, half_dv, e_star), denominator};
 }
 
+/// The same for any law: Newton over the tangent, which is Algorithm 1 itself with the tangent at
+/// the last iterate. Where it does not converge the denominator is zero.
+template <class Law, class Real>
+KRATER_FORCE_INLINE EnergyStep<Real> advance_energy(const Law& law, Real rho, Real v, Real p,
+                                                    Real e, Real dv, Real work) {
+  if constexpr (LinearInEnergy<Law>) {
+    return close_energy(law.split(rho, v), p, e, dv, work);
+  } else {
+    constexpr int cap = 50;  // 2 or 3 off the borders of the law's regimes
+    const Real scale = Real(1e-12 * law.c0 * law.c0);
+    EnergyStep<Real> step{p, e, Real(1.0)};
+    Real last = e;
+    MaskOf<Real> active = Real(0.0) == Real(0.0);
+    for (int i = 0; i < cap && any(active); ++i) {
+      const EnergyStep<Real> next = close_energy(law.tangent(rho, v, last), p, e, dv, work);
+      step = {select(active, next.pressure, step.pressure),
+              select(active, next.energy, step.energy),
+              select(active, next.denominator, step.denominator)};
+      active = active & !(abs(next.energy - last) <= fma(Real(1e-12), abs(next.energy), scale));
+      last = step.energy;
+    }
+    return {step.pressure, step.energy, select(active, Real(0.0), step.denominator)};
+  }
+}
+
 /// The same step with a pressure not below `least`, which then does the work.
 template <class Real>
 KRATER_FORCE_INLINE EnergyStep<Real> limited(const EnergyStep<Real>& step, Real least, Real dv) {
@@ -47,8 +73,8 @@ class EosStage final : public Stage {
   EosStage(const Law& law, Layout& layout)
       : law_{law},
         rho_{layout.input<field::Density>(Law::name)},
-        p_{layout.state<field::Pressure>(0.0, Law::name)},
-        e_{layout.state<field::InternalEnergy>(0.0, Law::name)},
+        p_{layout.state<field::Pressure>(pressure_at_start(law), Law::name)},
+        e_{layout.state<field::InternalEnergy>(energy_at_start(law), Law::name)},
         c_{layout.state<field::SoundSpeed>(law.c0, Law::name)},
         volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
         work_{layout.local_input<field::SpecificWork>(Law::name)},
@@ -74,7 +100,7 @@ class EosStage final : public Stage {
         v = v - view(batch, voids_)(g);
         rho = 1.0 / v;
       }
-      EnergyStep<Pack> step = close_energy(law_.split(rho, v), p_p(g), e_p(g), dv, w_p(g));
+      EnergyStep<Pack> step = advance_energy(law_, rho, v, p_p(g), e_p(g), dv, w_p(g));
       if (tension_limit_.offset >= 0) step = limited(step, view(batch, tension_limit_)(g), dv);
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
       p_p.set(g, step.pressure);

@@ -5,9 +5,12 @@
 /// `StageFactory::make` takes.
 #pragma once
 
+#include "krater/materials/eos/jwl.hpp"
 #include "krater/materials/eos/linear.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
+#include "krater/materials/eos/stiffened_gas.hpp"
+#include "krater/materials/eos/tillotson.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
 #include "krater/materials/strength/drucker_prager.hpp"
 #include "krater/materials/strength/elastic.hpp"
@@ -39,6 +42,10 @@ using AllLaws = LawList<Elastic,                 //
                         LinearEos,               //
                         MieGruneisenPolynomial,  //
                         MieGruneisenShock,       //
+                        IdealGas,                //
+                        StiffenedGas,            //
+                        Jwl,                     //
+                        Tillotson,               //
                         BulkViscosity,           //
                         PlasticWorkHeating>;
 

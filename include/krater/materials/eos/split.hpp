@@ -3,10 +3,14 @@
 /// What an equation of state gives the energy update (Algorithm 1, theory 9): p = A + B rho e,
 /// linear in e. A law has `template <class Real>`
 ///   PressureSplit<Real> split(Real rho, Real v) const                  A and B rho
+/// or, where p is not linear in e,
+///   PressureSplit<Real> tangent(Real rho, Real v, Real e) const        of p at e, by dp/de > 0
+/// and
 ///   Real bulk_modulus(Real rho, Real v, Real p, Real e) const          isentropic K_s, Decision 5
 /// with v = 1/rho, which is at hand and saves divisions; doubles rho0 and c0, the reference density
 /// and bulk sound speed; and, if it has a pole that it continues past,
 ///   MaskOf<Real> beyond_pole(Real rho) const                           counted by the stage
+/// A material that is not at p = e = 0 at the start has a double initial_energy.
 #pragma once
 
 #include "krater/core/simd.hpp"
@@ -18,5 +22,40 @@ struct PressureSplit {
   Real cold;     ///< A [Pa]
   Real thermal;  ///< B rho = dp/de at constant rho [kg/m^3]
 };
+
+/// An equation of state that is a line in e at every density.
+template <class Law>
+concept LinearInEnergy = requires(const Law& law) {
+  law.split(1.0, 1.0);
+};
+
+/// p = cold + thermal e near e.
+template <class Law, class Real>
+KRATER_FORCE_INLINE PressureSplit<Real> split_at(const Law& law, Real rho, Real v, Real e) {
+  if constexpr (LinearInEnergy<Law>) {
+    return law.split(rho, v);
+  } else {
+    return law.tangent(rho, v, e);
+  }
+}
+template <class Law, class Real>
+KRATER_FORCE_INLINE Real pressure_at(const Law& law, Real rho, Real v, Real e) {
+  const PressureSplit<Real> split = split_at(law, rho, v, e);
+  return fma(split.thermal, e, split.cold);
+}
+
+/// State of a new point.
+template <class Law>
+KRATER_FORCE_INLINE double energy_at_start(const Law& law) {
+  if constexpr (requires { law.initial_energy; }) {
+    return law.initial_energy;
+  } else {
+    return 0.0;
+  }
+}
+template <class Law>
+KRATER_FORCE_INLINE double pressure_at_start(const Law& law) {
+  return pressure_at(law, law.rho0, 1.0 / law.rho0, energy_at_start(law));
+}
 
 }  // namespace krater::inline KRATER_ISA
