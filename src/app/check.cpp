@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "krater/app/card_doctor.hpp"
 #include "krater/app/command_line.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/simulation.hpp"
@@ -73,6 +74,8 @@ void print_check(const RunOptions& options) {
              1e-6 * sim.bytes_per_point() * static_cast<double>(sim.point_count()),
              work / (dimension(scene.frame) == 3 ? kRate3d : kRate2d));
   print_advice(scene, fastest);
+  for (const MaterialOptions& m : scene.materials)
+    for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
 }
 
 }  // namespace krater

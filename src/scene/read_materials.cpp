@@ -135,6 +135,7 @@ Node read_material(const Node& node, Reading& reading) {
   material.density = block.number(kDensity);
   ElasticConstants constants = read_elastic_constants(block);
   material.shear_modulus = constants.shear;
+  material.bulk_modulus = constants.bulk;
   if (constants.shear > 0) block.record("shear_modulus", number_node(constants.shear));
   material.initial_temperature = block.number(kTemperature);
   LawReader laws{reading, constants, block, material};

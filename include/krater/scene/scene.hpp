@@ -41,6 +41,7 @@ struct LawChoice {
 struct MaterialOptions {
   std::string name, where;
   double density = 0, shear_modulus = 0, initial_temperature = 293;
+  std::optional<double> bulk_modulus;  ///< of the elastic constants, where they give it
   std::optional<LawChoice> eos, strength, viscosity, heating;  ///< absent: no such stage
 };
 

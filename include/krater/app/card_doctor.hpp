@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file app/card_doctor.hpp
+/// Doubts about the numbers of a material, for `krater check`: they do not keep a run from
+/// starting.
+#include <string>
+#include <vector>
+
+#include "krater/scene/scene.hpp"
+
+namespace krater {
+
+/// One sentence per doubt: elastic constants against the equation of state, temperatures, specific
+/// heat and melting point against metals of that density, a missing limit of tension.
+std::vector<std::string> examine(const MaterialOptions& material);
+
+/// rho0 c0^2 of the material's equation of state [Pa]; 0 without one.
+double bulk_modulus_at_rest(const MaterialOptions& material);
+
+}  // namespace krater

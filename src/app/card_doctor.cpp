@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/app/card_doctor.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "krater/materials/catalogue.hpp"
+
+namespace krater {
+
+namespace {
+
+/// Handbook values at room temperature (CRC Handbook of Chemistry and Physics; the alloys' from
+/// Johnson and Cook 1983). Alloys of the same density lie within the tolerances below.
+struct Metal {
+  const char* name;
+  double density, cp, T_melt;
+};
+constexpr Metal kMetals[] = {
+    {"magnesium", 1740, 1023, 923},
+    {"beryllium", 1845, 1825, 1560},
+    {"aluminium", 2700, 897, 933},
+    {"titanium", 4510, 523, 1941},
+    {"zinc", 7140, 388, 693},
+    {"tin", 7290, 227, 505},
+    {"iron or steel", 7850, 449, 1811},
+    {"brass", 8520, 385, 1189},
+    {"nickel", 8900, 444, 1728},
+    {"copper", 8960, 385, 1358},
+    {"molybdenum", 10220, 251, 2896},
+    {"silver", 10490, 235, 1235},
+    {"lead", 11340, 129, 601},
+    {"tantalum", 16650, 140, 3290},
+    {"tungsten alloy", 17000, 134, 1723},
+    {"uranium alloy", 18600, 117, 1473},
+    {"uranium", 19050, 116, 1408},
+    {"gold", 19300, 129, 1337},
+    {"tungsten", 19300, 132, 3695},
+};
+constexpr double kSameDensity = 0.03, kSameModulus = 0.05, kSameHeat = 0.2, kSameMelting = 0.25;
+
+bool near(double a, double b, double tolerance) { return std::fabs(a - b) <= tolerance * b; }
+
+/// A parameter of a law by its key; empty if the law has no such parameter.
+std::optional<double> parameter(const std::optional<LawChoice>& choice, const char* key) {
+  if (!choice) return std::nullopt;
+  const LawInfo& law = catalogue()[static_cast<std::size_t>(choice->law)];
+  for (std::size_t i = 0; i < law.parameters.size(); ++i)
+    if (std::strcmp(law.parameters[i].key, key) == 0) return choice->values[i];
+  return std::nullopt;
+}
+
+void check_moduli(const MaterialOptions& m, std::vector<std::string>& doubts) {
+  const double K = bulk_modulus_at_rest(m);
+  if (!(K > 0)) return;
+  if (m.bulk_modulus && !near(*m.bulk_modulus, K, kSameModulus))
+    doubts.push_back(fmt::format(
+        "the elastic constants give K = {:.4g} GPa, the equation of state rho0 c0^2 = {:.4g} GPa "
+        "({:+.1f} %); the equation of state is what runs",
+        1e-9 * *m.bulk_modulus, 1e-9 * K, 100 * (K / *m.bulk_modulus - 1)));
+  const double G = m.shear_modulus;
+  const double nu = (3 * K - 2 * G) / (2 * (3 * K + G));
+  if (G > 0 && nu < 0)
+    doubts.push_back(
+        fmt::format("G = {:.4g} GPa with rho0 c0^2 = {:.4g} GPa is a Poisson's ratio of {:.2f}",
+                    1e-9 * G, 1e-9 * K, nu));
+}
+
+void check_temperatures(const MaterialOptions& m, std::vector<std::string>& doubts) {
+  const double T = m.initial_temperature;
+  const std::optional<double> T_ref = parameter(m.strength, "T_ref");
+  const std::optional<double> T_melt = parameter(m.strength, "T_melt");
+  if (T_melt && *T_melt > 0 && T >= *T_melt)
+    doubts.push_back(
+        fmt::format("starts molten: initial_temperature {:g} K, T_melt {:g} K", T, *T_melt));
+  else if (T_ref && T > *T_ref + 1)
+    doubts.push_back(
+        fmt::format("starts softened: initial_temperature {:g} K, T_ref {:g} K", T, *T_ref));
+  if (T_ref && *T_ref < 100)
+    doubts.push_back(fmt::format("T_ref = {:g} K looks like degrees Celsius", *T_ref));
+}
+
+/// Specific heat and melting point against every metal of about this density.
+void check_handbook(const MaterialOptions& m, std::vector<std::string>& doubts) {
+  const std::optional<double> cp = parameter(m.heating, "cp");
+  // Of laws with a homologous temperature: Steinberg's T_melt is that of a fit.
+  const bool homologous = parameter(m.strength, "T_ref").has_value();
+  const double T_melt = homologous ? parameter(m.strength, "T_melt").value_or(0) : 0;
+  std::string heats, meltings, other;
+  bool cp_known = false, T_known = false;
+  for (const Metal& metal : kMetals) {
+    const bool same = near(m.density, metal.density, kSameDensity);
+    if (cp && !same && near(*cp, metal.cp, 0.03))
+      other += fmt::format("{}{}", other.empty() ? "" : ", ", metal.name);
+    if (!same) continue;
+    heats += fmt::format("{}{} {:g}", heats.empty() ? "" : ", ", metal.name, metal.cp);
+    meltings += fmt::format("{}{} {:g}", meltings.empty() ? "" : ", ", metal.name, metal.T_melt);
+    cp_known = cp_known || (cp && near(*cp, metal.cp, kSameHeat));
+    T_known = T_known || near(T_melt, metal.T_melt, kSameMelting);
+  }
+  if (heats.empty()) return;
+  if (cp && !cp_known)
+    doubts.push_back(fmt::format("cp = {:g} J/(kg K) at {:g} kg/m^3; expected {}{}", *cp, m.density,
+                                 heats,
+                                 other.empty() ? "" : " (that is the value of " + other + ")"));
+  if (T_melt > 0 && !T_known)
+    doubts.push_back(
+        fmt::format("T_melt = {:g} K at {:g} kg/m^3; expected {}", T_melt, m.density, meltings));
+}
+
+/// Cold tension has no limit of its own in these.
+void check_tension(const MaterialOptions& m, std::vector<std::string>& doubts) {
+  if (!m.eos || m.eos->name == "ideal_gas" || m.eos->name == "jwl") return;
+  if (!m.strength || m.strength->name == "elastic" || m.strength->name == "drucker_prager") return;
+  doubts.push_back("no spall strength: nothing limits its tension");
+}
+
+}  // namespace
+
+double bulk_modulus_at_rest(const MaterialOptions& m) {
+  if (!m.eos) return 0;
+  Layout layout{3};
+  const MaterialConstants constants{m.density, m.shear_modulus, m.initial_temperature};
+  const std::unique_ptr<Stage> stage{
+      stage_factory_isa_portable()->make(m.eos->law, m.eos->values.data(), constants, layout)};
+  const double c0 = layout.find(field::SoundSpeed::info.name)->initial;
+  return m.density * c0 * c0;
+}
+
+std::vector<std::string> examine(const MaterialOptions& material) {
+  std::vector<std::string> doubts;
+  check_moduli(material, doubts);
+  check_temperatures(material, doubts);
+  check_handbook(material, doubts);
+  check_tension(material, doubts);
+  return doubts;
+}
+
+}  // namespace krater

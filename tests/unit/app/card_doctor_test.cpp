@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every card of inputs/materials reads, and the doctor doubts those it should.
+#include "krater/app/card_doctor.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "unit/scene/scene_support.hpp"
+
+namespace {
+
+using namespace krater;
+using namespace krater::test;
+
+constexpr const char* kSpall = "no spall strength: nothing limits its tension";
+
+/// The material of a card, read in a minimal scene; `more` overrides.
+MaterialOptions read_card(const std::string& card, const std::string& more = "") {
+  const ScratchFolder folder;
+  const std::string scene =
+      "frame: axisymmetric\n"
+      "grid: {cell: 1 mm, box: {min: [0, 0], max: [10 mm, 20 mm]}, boundary: {r_min: axis}}\n"
+      "time: {end: 1 us}\n"
+      "materials:\n"
+      "  it: {card: " +
+      card + more +
+      "}\n"
+      "bodies:\n"
+      "  rod: {material: it, shape: {cylinder: {radius: 3 mm, height: 12 mm}}}\n";
+  return read_scene(folder.write("scene.yaml", scene)).materials.at(0);
+}
+std::string path_of(const std::string& name) {
+  return std::filesystem::absolute(source_path("/inputs/materials/" + name + ".yaml")).string();
+}
+
+/// Doubts other than the missing spall strength.
+std::vector<std::string> doubts_of(const MaterialOptions& material) {
+  std::vector<std::string> doubts = examine(material);
+  std::erase(doubts, kSpall);
+  return doubts;
+}
+
+}  // namespace
+
+TEST_SUITE("unit") {
+  TEST_CASE("cards: every one reads, names its sources, and only the known ones are in doubt") {
+    // How many doubts, of cards whose sources disagree with themselves.
+    const std::map<std::string, std::size_t> known{{"ofhc_copper", 1},
+                                                   {"ccf_steel_as_printed", 1},
+                                                   {"lead_mpm3d", 1},
+                                                   {"copper_mpm3d", 1},
+                                                   {"copper_karamelo", 1}};
+    int cards = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator{source_path("/inputs/materials")}) {
+      const std::string name = entry.path().stem().string();
+      CAPTURE(name);
+      const std::string text = slurp(entry.path().string());
+      CHECK(text.find("# Sources:") != std::string::npos);
+      const MaterialOptions material = read_card(path_of(name));
+      const auto doubts = doubts_of(material);
+      if (!doubts.empty()) CAPTURE(doubts.front());
+      const auto expected = known.find(name);
+      CHECK(doubts.size() == (expected == known.end() ? 0 : expected->second));
+      ++cards;
+    }
+    CHECK(cards >= 30);
+  }
+
+  TEST_CASE("doctor: our copper's K against rho0 c0^2, the CCF steel's specific heat") {
+    const auto copper = doubts_of(read_card(path_of("ofhc_copper")));
+    REQUIRE(copper.size() == 1);
+    CHECK(copper[0] ==
+          "the elastic constants give K = 129 GPa, the equation of state rho0 c0^2 = 139.1 GPa "
+          "(+7.8 %); the equation of state is what runs");
+    const auto steel = doubts_of(read_card(path_of("ccf_steel_as_printed")));
+    REQUIRE(steel.size() == 1);
+    CHECK(steel[0] ==
+          "cp = 134 J/(kg K) at 7823 kg/m^3; expected iron or steel 449 (that is the value of "
+          "tungsten alloy, tungsten)");
+    CHECK(doubts_of(read_card(path_of("ccf_steel"))).empty());
+  }
+
+  TEST_CASE("doctor: temperatures, melting point, Poisson's ratio, tension") {
+    const std::string card = path_of("steel_4340");
+    const auto says = [&](const std::string& more, const std::string& part) {
+      CAPTURE(more);
+      const auto doubts = doubts_of(read_card(card, more));
+      REQUIRE(doubts.size() == 1);
+      CHECK(doubts[0].find(part) != std::string::npos);
+    };
+    says(", initial_temperature: 2000 K", "starts molten");
+    says(", initial_temperature: 600 K", "starts softened");
+    says(", strength: {johnson_cook: {T_melt: 933 K}}", "T_melt = 933 K");
+    says(", shear_modulus: 300 GPa", "Poisson's ratio of -0.");
+    const auto all = examine(read_card(card));
+    CHECK(std::count(all.begin(), all.end(), kSpall) == 1);
+    CHECK(bulk_modulus_at_rest(read_card(card)) == doctest::Approx(7830.0 * 4570.0 * 4570.0));
+  }
+}
