@@ -125,6 +125,8 @@ const std::vector<FieldName>& known_fields() {
                                     &field::InternalEnergy::info,
                                     &field::Temperature::info,
                                     &field::PlasticStrain::info,
+                                    &field::Damage::info,
+                                    &field::Failed::info,
                                     &field::SoundSpeed::info,
                                     &field::ShockIndicator::info,
                                     &field::HalfWidth::info,
