@@ -214,6 +214,14 @@ TEST_SUITE("contract") {
     driver.to(0.05, 100);
     CHECK(driver.body.ledger.snap_backs == 1.0);
     REQUIRE(driver.body.fault.kind == FaultKind::none);
+    // Hardening so steep that the step has a root below phi_c: it fails for the snap-back alone.
+    recipe.parameters["von_mises.H"] = 500e9;
+    Driver steep{recipe};
+    steps = 0;
+    while (steep.value("failed") == 0.0 && steps++ < 2000) steep.step(1.0 + 1e-5);
+    CHECK(steep.value("damage") < 0.9);
+    CHECK(steep.body.ledger.snap_backs == 1.0);
+    CHECK(steep.value("deviatoric_stress") == 0.0);
   }
 
   TEST_CASE(

@@ -101,7 +101,8 @@ TEST_SUITE("unit") {
                           "    spall_strength: 2 GPa\n    rate: green_naghdi"));
     const Scene scene = read_scene(file);
     const Scene again = read_scene(folder.write("resolved.yaml", scene.resolved));
-    CHECK(again.resolved == scene.resolved);
+    const auto body = [](const Scene& s) { return s.resolved.substr(s.resolved.find('\n')); };
+    CHECK(body(again) == body(scene));  // the first line names the file
     for (const Scene* s : {&scene, &again}) {
       const MaterialOptions& m = s->materials.at(0);
       REQUIRE(m.damage);
