@@ -195,7 +195,9 @@ void Simulation::step(double until) {
     dt_ = step_->advance(asked);
   } catch (const StepFault& fault) {
     broken_ = true;
-    fail(fault);
+    const std::string text = describe_fault(fault);
+    deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
+    throw NumericalError(text);
   }
   if (dt_ < asked) dt_free_ = dt_;
   ++steps_;
