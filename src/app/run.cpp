@@ -258,8 +258,9 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   results_.flush();
   const double gone = sim_.audit().removed_points;
   if (gone > 0 && !options_.quiet)
-    say(fmt::format("krater: note: {:.0f} of {:.0f} points left the domain (grid.box) and were removed",
-                    gone, gone + static_cast<double>(sim_.point_count())));
+    say(fmt::format(
+        "krater: note: {:.0f} of {:.0f} points left the domain (grid.box) and were removed", gone,
+        gone + static_cast<double>(sim_.point_count())));
   if (!options_.quiet)
     say(fmt::format("krater: {} after {} steps, results in {}", status, sim_.steps(),
                     results_.path()));

@@ -77,10 +77,13 @@ double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  const BoundaryWork wall = boundary_.constrain();
+  BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
   lap(Phase::boundary);
-  if (method_.transfer == Transfer::xpic) filter_velocity();
+  if (method_.transfer == Transfer::xpic) {
+    const std::array<double, 3> impulse = filter_velocity();
+    for (std::size_t a = 0; a < 3; ++a) wall.impulse[a] += impulse[a];
+  }
   grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
                     dt);
   audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
@@ -233,7 +236,9 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   }
 }
 
-void MpmStep::filter_velocity() {
+// Returns the impulse of walls: they act on each term S+ S dv(l), which enters with a minus sign [N
+// s].
+std::array<double, 3> MpmStep::filter_velocity() {
   // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
   // (2017), FMPM form.
   const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
@@ -241,7 +246,8 @@ void MpmStep::filter_velocity() {
   filtered_.reserve(2 * total);
   double* sum = filtered_.data();
   double* increment = sum + total;
-  if (total == 0) return;
+  std::array<double, 3> impulse{};
+  if (total == 0) return impulse;
   double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
   std::copy(nodes, nodes + total, sum);
   for (int order = 1; order < method_.xpic_order; ++order) {
@@ -250,7 +256,8 @@ void MpmStep::filter_velocity() {
     particles_to_grid(plain_, velocity_from_kept_, 0);
     double unused = 0;
     momentum(unused, 0);
-    boundary_.constrain();
+    const BoundaryWork term = boundary_.constrain();
+    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a];
     boundary_.mirror();
     lap(Phase::boundary);
     for (std::size_t i = 0; i < total; i += kNodeDoubles)
@@ -260,6 +267,7 @@ void MpmStep::filter_velocity() {
       }
   }
   std::copy(sum, sum + total, nodes);
+  return impulse;
 }
 
 // Dormant blocks. A patch whose nodes are all at rest is gathered once more; if that changed no bit

@@ -114,7 +114,7 @@ class Rig {
     if (!stages) data_.stage_count = 0;
     settings_.geometry = &run.sim->geometry();
     settings_.dt = 1;
-    settings_.average_cells = settings_.shock_switch = averaging;
+    settings_.average_cells = averaging;
     zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles), cells_.reserve(4 * kBlockNodes);
     boundary_.relink(grid());
     local_.resize(grid().patches.size());

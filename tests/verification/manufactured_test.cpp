@@ -7,6 +7,7 @@
 // errors are in mms_peer_convergence.csv.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -143,14 +144,15 @@ TEST_SUITE("verification") {
     }
   }
 
-  TEST_CASE("manufactured bar: splines reach their noise floor, of the order h at best") {
+  TEST_CASE("manufactured bar: splines reach their noise floor") {
     // With 2 points per cell at places other than those of the start the quadrature of a spline is
-    // wrong by a share that refinement does not change (numerics A1).
+    // wrong by a share that refinement does not change: the error of the force grows like 1/h
+    // (numerics A1).
     for (const bool flip : {true, false}) {
       const Study s = study({8, 16, 32, 64, 128}, 0.05, shape("quadratic_bspline", flip));
       CHECK(s.order[0] > 1.8);
-      CHECK(s.order.back() < 1.2);
-      CHECK(s.error.back() < 1e-2 * 0.05);
+      CHECK(s.order.back() < 0);  // finer is worse
+      CHECK(s.error.back() < 2e-2 * 0.05);
     }
     const Study small = study({8, 16, 32, 64}, 1e-4, shape("quadratic_bspline", false));
     for (const double order : small.order) CHECK(order >= 1.8);

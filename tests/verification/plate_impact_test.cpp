@@ -142,7 +142,7 @@ TEST_SUITE("verification") {
       CHECK(std::abs(r.pressure) < 0.01);
       CHECK(std::abs(r.density) < 0.01);
       CHECK(std::abs(r.shock_speed) < 0.01);
-      CHECK(std::abs(r.energy_fraction) < 0.015);  // Ta at 6 km/s, 100 cells: -1.06 %
+      CHECK(std::abs(r.energy_fraction) < 0.015);  // Ta at 6 km/s: -1.17 %
       CHECK(std::abs(r.residual) < 1e-11);
     }
   }

@@ -66,7 +66,7 @@ class MpmStep {
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
-  void filter_velocity();
+  std::array<double, 3> filter_velocity();
   void grid_to_particles(GatherPart part, double dt);
   void combine_patches(bool forces_worked);
   void provide_memory();
