@@ -50,9 +50,7 @@ void Body::declare_method_columns(const Scene& scene) {
   if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
   if (m.update == Update::musl || m.transfer == Transfer::xpic)
     layout_.state<field::GridVelocity>(0, kMethod);
-  const bool switched = m.cell_averaging ||
-                        (m.transfer == Transfer::tflip && m.flip_fraction != m.flip_fraction_shock);
-  if (switched) layout_.state<field::ShockIndicator>(0, kMethod);
+  if (m.cell_averaging) layout_.state<field::ShockIndicator>(0, kMethod);
   if (scene.body_force) {
     layout_.state<field::BodyAcceleration>(0, kMethod);
     layout_.state<field::ReferencePosition>(0, kMethod);
