@@ -332,12 +332,15 @@ def draw_measure(axes, run, bodies, measure, box, mm):
     kind = measure.get("kind")
     if kind == "diameter" and position_of(measure) is not None:
         z = position_of(measure) / mm
-        centre = 0.0 if run.frame == "axisymmetric" else 0.5 * (points[:, 0].min() + points[:, 0].max())
+        cut = [at / mm for axis, at, _ in run.planes
+               if axis == 0 and np.abs(points[:, 0] - at / mm).min() < 2 * np.median(half)]  # half a body is drawn
+        centre = cut[0] if cut else 0.5 * (points[:, 0].min() + points[:, 0].max())
         draw_diameter(axes, centre, z, value, wanted, box[3] - box[2])
         return z
     if kind not in ("extent", "max", "min") or measure.get("axis", "z") != "z":
         return None
-    base = np.min(points[:, 2] - half) if kind == "extent" else 0.0
+    floor = max((at / mm for axis, at, inside in run.planes if (axis, inside) == (2, 1)), default=-np.inf)
+    base = max(np.min(points[:, 2] - half), floor) if kind == "extent" else 0.0
     line(axes, box[:2], [base + value] * 2)
     if wanted is not None:
         line(axes, box[:2], [base + wanted] * 2, True)

@@ -183,25 +183,55 @@ def order(values, ratio=2.0):
     return float(np.log(first / second) / np.log(ratio))
 
 
-def outline(axes, run, number=-1, **options):
-    """The line of volume fraction 1/2 of a 2d run or of the section of a 3d run, in mm."""
-    from plot_run_raster import HALF, Fraction, Raster
+def drawn(run, number):
+    """(raster, [(body, its volume fraction)]) of a frame."""
+    from plot_run_raster import Fraction, Raster
     from plot_run_shapes import Run as Shapes, limits
     shapes = Shapes(run.folder)
     number = shapes.numbers[number]
     raster = Raster(limits(shapes, [number], 1.0), float(run.summary["cell"]), 1000)
-    for body in shapes.bodies(number):
-        phi = Fraction(raster, shapes.frame, body.x, body.volume, shapes.planes, shapes.section_y)
-        low, high, bottom, top = raster.extent(1e-3)
-        rows, columns = raster.shape
-        x = low + (np.arange(columns) + 0.5) * (high - low) / columns
-        z = bottom + (np.arange(rows) + 0.5) * (top - bottom) / rows
-        values = np.ma.array(phi.phi, mask=phi.beyond)
-        axes.contour(x, z, values, levels=[HALF], **options)
+    return raster, [(body, Fraction(raster, shapes.frame, body.x, body.volume, shapes.planes, shapes.section_y))
+                    for body in shapes.bodies(number)]
+
+
+def noise(run, field, number=-1):
+    """Root of the mean square difference between the points of a 2d run and their mean over a cell (B-spline of
+    width h), weighted by mass: what smooth fields do not have."""
+    raster, bodies = drawn(run, number)
+    total = weight = 0.0
+    for body, fraction in bodies:
+        values, mass = body.values(field), body.values("mass")
+        apart = values - raster.at(fraction.mean(values), fraction.places[:len(values)])
+        total, weight = total + np.sum(mass * apart ** 2), weight + np.sum(mass)
+    return float(np.sqrt(total / weight))
+
+
+def fractions(run, number=-1):
+    """[(x, z, masked phi)] of the bodies of a 2d run, or in the section of a 3d run, in mm."""
+    raster, bodies = drawn(run, number)
+    low, high, bottom, top = raster.extent(1e-3)
+    rows, columns = raster.shape
+    x = low + (np.arange(columns) + 0.5) * (high - low) / columns
+    z = bottom + (np.arange(rows) + 0.5) * (top - bottom) / rows
+    return [(x, z, np.ma.array(fraction.phi, mask=fraction.beyond)) for _, fraction in bodies]
+
+
+def outline(axes, run, number=-1, **options):
+    """The line of volume fraction 1/2."""
+    for x, z, phi in fractions(run, number):
+        axes.contour(x, z, phi, levels=[0.5], **options)
     axes.set_aspect("equal")
 
 
-def widest_points(run, body, band):
+def widest(run):
+    """Largest width of the outline of a single body that is symmetric about x = 0, in mm."""
+    x, _, phi = fractions(run)[0]
+    most = phi.filled(0).max(axis=0)
+    k = np.flatnonzero(most >= 0.5).max()
+    return 2 * (x[k] + (x[1] - x[0]) * (most[k] - 0.5) / (most[k] - most[k + 1]))
+
+
+def widest_points(run, body, band=np.inf):
     """Twice the largest radius of point centres within `band` of the lowest point: how codes without a
     surface measure a foot."""
     import h5py

@@ -50,9 +50,7 @@ void Body::declare_method_columns(const Scene& scene) {
   if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
   if (m.update == Update::musl || m.transfer == Transfer::xpic)
     layout_.state<field::GridVelocity>(0, kMethod);
-  const bool switched = m.cell_averaging ||
-                        (m.transfer == Transfer::tflip && m.flip_fraction != m.flip_fraction_shock);
-  if (switched) layout_.state<field::ShockIndicator>(0, kMethod);
+  if (m.cell_averaging) layout_.state<field::ShockIndicator>(0, kMethod);
   if (scene.body_force) {
     layout_.state<field::BodyAcceleration>(0, kMethod);
     layout_.state<field::ReferencePosition>(0, kMethod);
@@ -65,33 +63,25 @@ void Body::declare_method_columns(const Scene& scene) {
   layout_.local_output<field::ExtraDilatation>(kMethod);
 }
 
-void Body::add(std::string name, Stage* stage) {
-  if (stage == nullptr) throw std::logic_error("no stage was made for " + name);
-  stages_.push_back({std::move(name), std::unique_ptr<const Stage>{stage}});
-  stage_pointers_.push_back(stage);
-}
-
 void Body::add_stages(const StageFactory& factory) {
-  const MaterialConstants constants{material_->density, material_->shear_modulus,
-                                    material_->initial_temperature};
-  const auto add_law = [&](const std::optional<LawChoice>& choice, const char* family) {
-    if (choice)
-      add(std::string{family} + ": " + choice->name,
-          factory.make(choice->law, choice->values.data(), constants, layout_));
+  const auto planned = [](const std::optional<LawChoice>& choice) {
+    return choice ? PlannedLaw{choice->law, choice->values.data()} : PlannedLaw{};
   };
-  const bool hyperelastic =
-      material_->strength &&
-      catalogue()[static_cast<std::size_t>(material_->strength->law)].whole_stress;
-  // A law that needs F must have declared it before the kinematics stage looks for it.
-  if (hyperelastic) layout_.state<field::DeformationGradient>(0, kMethod);
-  add("kinematics", factory.kinematics(layout_));
-  add_law(material_->viscosity, "viscosity");
-  add_law(material_->strength, "strength");
-  add_law(material_->eos, "eos");
-  add_law(material_->heating, "heating");
   if (material_->viscosity)
     q_lin_ = material_->viscosity->values.at(0), q_quad_ = material_->viscosity->values.at(1);
-  add("signal speed", factory.signal_speed(q_lin_, q_quad_, layout_));
+  MaterialPlan plan;
+  plan.constants = {material_->density, material_->shear_modulus, material_->initial_temperature};
+  plan.eos = planned(material_->eos), plan.strength = planned(material_->strength);
+  plan.damage = planned(material_->damage), plan.viscosity = planned(material_->viscosity);
+  plan.heating = planned(material_->heating);
+  plan.rate = material_->rate, plan.coupling = material_->coupling;
+  plan.degrade = material_->degrade_pressure;
+  degrades_ =
+      plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
+  if (material_->spall_strength) plan.spall_strength = *material_->spall_strength;
+  plan.q_lin = q_lin_, plan.q_quad = q_quad_;
+  stages_ = make_stages(factory, plan, layout_);
+  for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
 }
 
 BodyKernelData Body::kernel_data() const {
@@ -114,6 +104,7 @@ BodyKernelData Body::kernel_data() const {
   c.pressure = state(field::Pressure::info), c.viscous = state(field::ViscousPressure::info);
   c.energy = state(field::InternalEnergy::info), c.sound_speed = state(field::SoundSpeed::info);
   c.indicator = state(field::ShockIndicator::info), c.half_width = state(field::HalfWidth::info);
+  c.failed = state(field::Failed::info);
   c.body_acceleration = state(field::BodyAcceleration::info),
   c.grid_velocity = state(field::GridVelocity::info);
   c.local_gradient = local(field::StepGradient::info),

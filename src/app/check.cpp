@@ -43,6 +43,9 @@ void print_advice(const Scene& scene, double fastest) {
     if (fastest > 50 && !m.viscosity)
       fmt::print("advice: {}: no viscosity block; shocks will ring (add viscosity: {{}})\n",
                  m.name);
+    if (fastest > 100 && m.eos && !m.spall_strength && !m.damage)
+      fmt::print("advice: {}: neither spall_strength nor damage; cold tension has no other limit\n",
+                 m.name);
     if (fastest > 100 && m.strength && m.strength->name == "johnson_cook" && !m.heating)
       fmt::print("advice: {}: johnson_cook without heating: no thermal softening\n", m.name);
     if (fastest > 2000 && m.heating)

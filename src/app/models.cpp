@@ -27,10 +27,17 @@ const char* range_text(Range r) {
 
 void print_law(const LawInfo& law) {
   fmt::print("{}: {}\n  {}\n  {}\n", law.family, law.name, law.equation, law.reference);
-  for (const ParameterInfo& p : law.parameters)
-    fmt::print("  {:<14} [{}] {}{}  {}{}\n", p.key, p.unit, range_text(p.range),
-               std::isnan(p.fallback) ? ", required" : fmt::format(", default {:g}", p.fallback),
-               p.meaning, p.alias != nullptr ? fmt::format(" (also: {})", p.alias) : "");
+  for (const ParameterInfo& p : law.parameters) {
+    const std::vector<std::string> words = parameter_words(p);
+    if (words.empty()) {
+      fmt::print("  {:<14} [{}] {}{}  {}{}\n", p.key, p.unit, range_text(p.range),
+                 std::isnan(p.fallback) ? ", required" : fmt::format(", default {:g}", p.fallback),
+                 p.meaning, p.alias != nullptr ? fmt::format(" (also: {})", p.alias) : "");
+    } else {
+      fmt::print("  {:<14} {}, default {}  {}\n", p.key, p.words,
+                 words.at(static_cast<std::size_t>(p.fallback)), p.meaning);
+    }
+  }
 }
 
 }  // namespace

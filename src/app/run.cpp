@@ -76,6 +76,7 @@ class Runner {
  private:
   void begin();
   void resume();
+  std::vector<double> measures() const;
   void write_history();
   void write_frame(double time);
   void write_checkpoint();
@@ -136,7 +137,13 @@ void Runner::resume() {
   first_step_ = sim_.steps();
 }
 
-void Runner::write_history() { results_.write_history(history_row(sim_, evaluate_measures(sim_))); }
+/// None of a broken state: its positions may be anything.
+std::vector<double> Runner::measures() const {
+  if (!sim_.broken()) return evaluate_measures(sim_);
+  return std::vector<double>(scene_.measures.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+void Runner::write_history() { results_.write_history(history_row(sim_, measures())); }
 
 void Runner::write_frame(double time) {
   OutputFrame frame = make_frame(sim_, frame_);
@@ -193,9 +200,11 @@ int Runner::fail(const std::string& message, Progress& progress) {
   progress.finish();
   say("krater: " + message);
   if (!sim_.broken()) write_checkpoint();
-  const double after = std::nextafter(sim_.time(), std::numeric_limits<double>::infinity());
+  const double after = sim_.time() > 0
+                           ? std::nextafter(sim_.time(), std::numeric_limits<double>::infinity())
+                           : 1e-15 * scene_.time.end;
   write_frame(after);
-  std::vector<Quantity> row = history_row(sim_, evaluate_measures(sim_));
+  std::vector<Quantity> row = history_row(sim_, measures());
   row.front().value = after;
   results_.write_history(row);
   return finish("failed", message, kNumericalFailure, progress);
@@ -211,8 +220,7 @@ Json Runner::summary(const std::string& status, double seconds) const {
   j["time"] = Json::of(sim_.time());
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
-  j["bytes_per_point"] = Json::of(sim_.bytes_per_point());
-  j["measures"] = measures_json(sim_, evaluate_measures(sim_));
+  j["measures"] = measures_json(sim_, measures());
   j["audit"] = audit_json(sim_);
   Json& limiters = j["dt_limiters"];
   limiters["0"] = Json::of("wave speed");
@@ -226,6 +234,7 @@ Json Runner::summary(const std::string& status, double seconds) const {
   machine["host"] = Json::of(std::string{host});
   machine["threads"] = Json::of(static_cast<std::int64_t>(threads()));
   machine["instruction_set"] = Json::of(std::string{name_of(sim_.isa_level())});
+  machine["bytes_per_point"] = Json::of(sim_.bytes_per_point());
   machine["wall_seconds"] = Json::of(seconds);
   const double work =
       static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
@@ -247,6 +256,11 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
   results_.flush();
+  const double gone = sim_.audit().removed_points;
+  if (gone > 0 && !options_.quiet)
+    say(fmt::format(
+        "krater: note: {:.0f} of {:.0f} points left the domain (grid.box) and were removed", gone,
+        gone + static_cast<double>(sim_.point_count())));
   if (!options_.quiet)
     say(fmt::format("krater: {} after {} steps, results in {}", status, sim_.steps(),
                     results_.path()));

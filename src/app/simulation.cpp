@@ -130,6 +130,7 @@ void Simulation::choose_first_step() {
         if (speed > fastest) fastest = speed, first_limit_ = {static_cast<int>(n), i};
       }
   }
+  step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
   max_rate_ = (2 * fastest + signal) * geometry_.inv_h;
   dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step
@@ -195,7 +196,9 @@ void Simulation::step(double until) {
     dt_ = step_->advance(asked);
   } catch (const StepFault& fault) {
     broken_ = true;
-    fail(fault);
+    const std::string text = describe_fault(fault);
+    deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
+    throw NumericalError(text);
   }
   if (dt_ < asked) dt_free_ = dt_;
   ++steps_;

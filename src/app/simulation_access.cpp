@@ -125,7 +125,7 @@ std::string Simulation::describe_point(int patch, int point) const {
                      value(patch, point, body.slot(field::Id::info)), position);
 }
 
-void Simulation::fail(const StepFault& fault) const {
+std::string Simulation::describe_fault(const StepFault& fault) const {
   const Patch& patch = grid_.patches[static_cast<std::size_t>(fault.patch)];
   int lane = 0;
   while (lane < kLanes - 1 && ((fault.fault.lanes >> lane) & 1U) == 0) ++lane;
@@ -137,9 +137,8 @@ void Simulation::fail(const StepFault& fault) const {
       if (!std::isfinite(x))
         field = fmt::format("field '{}' component {} is {}", c.field->name, k, x);
     }
-  throw NumericalError(fmt::format("{}: {}; {}; time {:.6e} s, step {}",
-                                   describe_point(fault.patch, point), text_of(fault.fault.kind),
-                                   field, time_, steps_));
+  return fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(fault.patch, point),
+                     text_of(fault.fault.kind), field, time_, steps_);
 }
 
 Checkpoint Simulation::save() const {
@@ -197,7 +196,6 @@ void Simulation::restore(const Checkpoint& checkpoint) {
         "the scene and the --set options it was written with");
   const auto& clock = find("clock").doubles;
   time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), max_rate_ = clock.at(4);
-  if (!(scene_.time.min_step > 0)) min_step_ = clock.at(3);
   steps_ = find("counters").integers.at(0);
   limiter_kind_ = static_cast<int>(find("counters").integers.at(1));
   const auto& audit = find("audit").doubles;

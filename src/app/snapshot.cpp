@@ -84,7 +84,7 @@ void add(std::vector<Quantity>& row, std::string name, std::string unit, double 
   row.push_back({std::move(name), std::move(unit), value});
 }
 
-/// Elastic energy of the deviator, sum m s:s/(4 G rho) [J].
+/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J].
 double deviatoric_energy(const Simulation& sim) {
   double sum = 0;
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
@@ -93,6 +93,7 @@ double deviatoric_energy(const Simulation& sim) {
               rho = body.slot(field::Density::info);
     const double G = body.material().shear_modulus;
     if (s < 0 || G <= 0) continue;
+    const int phi = body.degrades() ? body.slot(field::Damage::info) : -1;
     for (std::size_t p = 0; p < sim.grid().patches.size(); ++p) {
       const Patch& patch = sim.grid().patches[p];
       if (patch.body != static_cast<int>(b)) continue;
@@ -103,7 +104,8 @@ double deviatoric_energy(const Simulation& sim) {
           square += (k < 3 ? 1 : 2) * x * x;
         }
         sum += sim.value(static_cast<int>(p), i, m) * square /
-               (4 * G * sim.value(static_cast<int>(p), i, rho));
+               (4 * G * sim.value(static_cast<int>(p), i, rho) *
+                (phi < 0 ? 1 : 1 - sim.value(static_cast<int>(p), i, phi)));
       }
     }
   }
@@ -215,6 +217,9 @@ Json audit_json(const Simulation& sim) {
   events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));
   events["sound_speed_floors"] = Json::of(static_cast<std::int64_t>(a.sound_speed_floors));
   events["hugoniot_poles"] = Json::of(static_cast<std::int64_t>(a.hugoniot_poles));
+  events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));
+  events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
+  events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
   events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
   events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
   j["events"] = events;

@@ -15,7 +15,9 @@ LawInfo describe() {
                .equation = Law::equation,
                .reference = Law::reference,
                .needs_shear_modulus = false,
-               .whole_stress = false};
+               .in_parts = Yielding<Law> && !ReadsPressure<Law> && !VariesShear<Law>,
+               .whole_stress = false,
+               .yields = Yielding<Law>};
   if constexpr (parameter_count < Law >> 0) {
     for (const Parameter<Law>& p : Law::parameters) info.parameters.push_back(p.info);
   }
@@ -35,6 +37,16 @@ const char* problem_of(const double* values, const MaterialConstants& constants)
   }
 }
 
+template <class Law>
+bool degrades_of(const double* values, const MaterialConstants& constants) {
+  if constexpr (requires(const Law& law) { law.degrades(); }) {
+    return make_law<Law>(values, constants).degrades();
+  } else {
+    return false;
+  }
+}
+
+using Degrades = bool (*)(const double*, const MaterialConstants&);
 using Problem = const char* (*)(const double*, const MaterialConstants&);
 
 template <class... Laws>
@@ -44,6 +56,10 @@ std::vector<LawInfo> describe_all(LawList<Laws...>) {
 template <class... Laws>
 std::vector<Problem> problems_of(LawList<Laws...>) {
   return {&problem_of<Laws>...};
+}
+template <class... Laws>
+std::vector<Degrades> all_degrades(LawList<Laws...>) {
+  return {&degrades_of<Laws>...};
 }
 
 }  // namespace
@@ -67,6 +83,23 @@ std::vector<std::string> law_names(std::string_view family) {
     if (law.family == family) names.push_back(law.name);
   }
   return names;
+}
+
+std::vector<std::string> parameter_words(const ParameterInfo& info) {
+  std::vector<std::string> words;
+  if (info.words == nullptr) return words;
+  std::string_view rest = info.words;
+  while (!rest.empty()) {
+    const std::size_t bar = rest.find('|');
+    words.emplace_back(rest.substr(0, bar));
+    rest = bar == std::string_view::npos ? std::string_view{} : rest.substr(bar + 1);
+  }
+  return words;
+}
+
+bool law_degrades(int law, const double* values, const MaterialConstants& constants) {
+  static const std::vector<Degrades> degrades = all_degrades(AllLaws{});
+  return degrades.at(static_cast<std::size_t>(law))(values, constants);
 }
 
 const char* law_problem(int law, const double* values, const MaterialConstants& constants) {

@@ -13,6 +13,9 @@ namespace {
 
 constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, kRequired,
                                  "density at rest"};
+constexpr ParameterInfo kSpall{
+    "spall_strength", "Pa", Range::positive, kRequired, "largest tension that the material carries",
+    "spall"};
 constexpr ParameterInfo kTemperature{"initial_temperature", "K", Range::positive, 293,
                                      "at the start"};
 
@@ -33,6 +36,20 @@ std::optional<double> implied(const ParameterInfo& info, ElasticConstants& const
   return std::nullopt;
 }
 
+/// A parameter whose value is one of a few words: their index.
+double word_value(const ParameterInfo& info, Block& block, Problems& problems) {
+  const std::vector<std::string> words = parameter_words(info);
+  auto index = static_cast<std::size_t>(info.fallback);
+  if (const Node* node = block.find(info.key)) {
+    const std::optional<std::string> word = read_word(*node, problems);
+    const auto found = word ? std::find(words.begin(), words.end(), *word) : words.end();
+    if (word && found == words.end()) report_unknown(*node, "value", *word, words, problems);
+    if (found != words.end()) index = static_cast<std::size_t>(found - words.begin());
+  }
+  block.record(info.key, string_node(words.at(index)));
+  return static_cast<double>(index);
+}
+
 struct LawReader {
   Reading& reading;
   ElasticConstants& constants;
@@ -47,7 +64,8 @@ struct LawReader {
     const bool absent = node == nullptr;
     for (ParameterInfo info : law.parameters) {
       if (const auto value = implied(info, constants)) info.fallback = *value;
-      choice.values.push_back(block.number(info));
+      choice.values.push_back(info.words ? word_value(info, block, reading.problems)
+                                         : block.number(info));
     }
     if (absent) choice.where = material.place().where();
     const MaterialConstants shared{options.density, options.shear_modulus,
@@ -63,7 +81,15 @@ struct LawReader {
   std::optional<LawChoice> read_named(const char* family) {
     const Node* node = material.find_block(family);
     if (!node) return std::nullopt;
-    const std::optional<Choice> chosen = read_choice(*node, "model", reading.problems);
+    Node resolved;
+    const std::optional<LawChoice> choice = read_law(family, *node, resolved);
+    if (choice) material.record(family, resolved);
+    return choice;
+  }
+
+  /// The law named by the only key of `node`; its parameters are added to `resolved`.
+  std::optional<LawChoice> read_law(const char* family, const Node& node, Node& resolved) {
+    const std::optional<Choice> chosen = read_choice(node, "model", reading.problems);
     if (!chosen) return std::nullopt;
     LawChoice choice;
     choice.name = chosen->name;
@@ -71,15 +97,53 @@ struct LawReader {
     if (choice.law < 0) {
       // The error names the block: that is where the user looks for the choice.
       Node place = *chosen->place;
-      place.path = node->path;
+      place.path = node.path;
       report_unknown(place, "model", chosen->name, law_names(family), reading.problems);
       return std::nullopt;
     }
-    Node resolved;
     add_member(resolved, choice.name,
-               read_parameters(choice, chosen->value, node->path + "." + choice.name));
-    material.record(family, resolved);
+               read_parameters(choice, chosen->value, node.path + "." + choice.name));
     return choice;
+  }
+
+  /// `damage: {johnson_cook: {...}, coupling: rate, degrade_pressure: none}` and `failure: {...}`.
+  void read_damage() {
+    const Node* node = material.find_block("damage");
+    const Node* failure = material.find_block("failure");
+    if (failure && !node) material.fail(*failure, "needs damage: nothing else makes points fail");
+    if (!node) return;
+    Node resolved, law = *node;
+    if (node->kind == Node::Kind::map) {
+      Block block{node, node->path, material.place(), reading.problems};
+      options.coupling = block.choice<Coupling>(
+          "coupling", {{"effective", Coupling::effective}, {"rate", Coupling::rate}},
+          options.coupling);
+      options.degrade_pressure =
+          block.choice<DegradePressure>("degrade_pressure",
+                                        {{"tension", DegradePressure::tension},
+                                         {"none", DegradePressure::none},
+                                         {"all", DegradePressure::all}},
+                                        options.degrade_pressure);
+      std::erase_if(law.items, [](const Node& item) {
+        return item.key == "coupling" || item.key == "degrade_pressure";
+      });
+      add_member(resolved, "coupling",
+                 string_node(options.coupling == Coupling::rate ? "rate" : "effective"));
+      const char* const words[] = {"tension", "none", "all"};
+      add_member(resolved, "degrade_pressure",
+                 string_node(words[static_cast<int>(options.degrade_pressure)]));
+    }
+    options.damage = read_law("damage", law, resolved);
+    material.record("damage", resolved);
+    Block action{failure, material.place().path + ".failure", material.place(), reading.problems};
+    action.choice<int>("action", {{"strength_loss", 0}}, 0);
+    material.record("failure", action.finish());
+  }
+
+  void read_rate() {
+    Words<Rate> words;
+    for (int i = 0; i < 4; ++i) words.emplace_back(kRateNames[i], static_cast<Rate>(i));
+    options.rate = material.choice<Rate>("rate", words, Rate::truesdell);
   }
 
   /// A family whose first law goes without saying: `viscosity: {q_lin: 0.3}`, its parameters stand
@@ -96,6 +160,27 @@ struct LawReader {
     return choice;
   }
 };
+
+void check_damage(const MaterialOptions& material, Block& block) {
+  if (!material.eos && material.spall_strength) block.fail("spall_strength needs an eos");
+  if (!material.damage) return;
+  const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
+  if (!strength || !strength->yields) {
+    std::string known;
+    for (const LawInfo& law : catalogue()) {
+      if (law.yields) known += (known.empty() ? "" : ", ") + law.name;
+    }
+    block.fail(
+        "damage grows with plastic strain: it needs a strength that yields (known: " + known + ")");
+  }
+  const MaterialConstants constants{material.density, material.shear_modulus,
+                                    material.initial_temperature};
+  if (material.coupling == Coupling::rate &&
+      !law_degrades(material.damage->law, material.damage->values.data(), constants)) {
+    block.fail("damage " + material.damage->name +
+               " does not degrade the stress: coupling rate has nothing to couple");
+  }
+}
 
 void check_combination(const MaterialOptions& material, Block& block, Reading& reading) {
   const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
@@ -114,13 +199,21 @@ void check_combination(const MaterialOptions& material, Block& block, Reading& r
     block.fail("strength " + strength->name +
                " needs shear_modulus, or youngs_modulus and poisson_ratio");
   }
+  if (material.rate != Rate::truesdell && (!strength || strength->whole_stress)) {
+    block.fail("rate needs a strength whose stress follows from a rate");
+  }
+  if (strength && strength->yields && !strength->in_parts &&
+      (material.damage || material.rate != Rate::truesdell)) {
+    block.fail("strength " + strength->name +
+               " reads the pressure and cannot be combined with damage or another rate yet");
+  }
+  check_damage(material, block);
   if (strength && strength->name == "johnson_cook" && !material.heating) {
     reading.scene.notes.push_back(block.place().where() +
                                   ": johnson_cook without heating: plastic work does not "
                                   "soften the material");
   }
-  const bool plastic = strength && strength->name != "elastic" && !strength->whole_stress;
-  if (material.heating && !plastic) {
+  if (material.heating && !(strength && strength->yields)) {
     reading.scene.notes.push_back(block.place().where() +
                                   ": heating has no effect without plastic flow");
   }
@@ -141,6 +234,11 @@ Node read_material(const Node& node, Reading& reading) {
   LawReader laws{reading, constants, block, material};
   material.eos = laws.read_named("eos");
   material.strength = laws.read_named("strength");
+  laws.read_rate();
+  laws.read_damage();
+  material.spall_strength = block.optional_number(kSpall);
+  if (material.spall_strength)
+    block.record("spall_strength", number_node(*material.spall_strength));
   material.heating = laws.read_named("heating");
   material.viscosity = laws.read_unnamed("viscosity");
   if (constants.bulk_given && !constants.bulk_used && !reading.problems.any()) {

@@ -19,10 +19,9 @@ constexpr ParameterInfo kFirstStep{"first_step", "s", Range::non_negative, 0, "0
 
 constexpr ParameterInfo kJitter{"jitter", "1", Range::fraction, 0,
                                 "greatest random shift of a point, in point spacings"};
-constexpr ParameterInfo kFlip{"flip_fraction", "1", Range::fraction, 0.999,
-                              "part of the point's own velocity kept where the flow is smooth"};
-constexpr ParameterInfo kFlipShock{"flip_fraction_shock", "1", Range::fraction, 0.97,
-                                   "the same in shocks"};
+constexpr ParameterInfo kFlip{
+    "flip_fraction", "1", Range::fraction, 0.99,
+    "part of the residual of a point's own velocity kept in a step (tflip)"};
 
 constexpr ParameterInfo kFrames{"frames", "s", Range::non_negative, 0,
                                 "between frames, 0: first and last"};
@@ -108,7 +107,7 @@ Node read_method(const Node* node, Reading& reading) {
   method.seed = static_cast<unsigned>(block.integer("seed", 0, 1'000'000'000, 1));
   method.cell_averaging = block.flag("cell_averaging", method.cell_averaging);
   method.flip_fraction = block.number(kFlip);
-  method.flip_fraction_shock = block.number(kFlipShock);
+  method.dormant_blocks = block.flag("dormant_blocks", method.dormant_blocks);
   return block.finish();
 }
 
@@ -125,6 +124,8 @@ const std::vector<FieldName>& known_fields() {
                                     &field::InternalEnergy::info,
                                     &field::Temperature::info,
                                     &field::PlasticStrain::info,
+                                    &field::Damage::info,
+                                    &field::Failed::info,
                                     &field::SoundSpeed::info,
                                     &field::ShockIndicator::info,
                                     &field::HalfWidth::info,

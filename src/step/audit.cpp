@@ -24,6 +24,9 @@ void Audit::book_events(const Ledger& ledger) {
   plastic_heating += ledger.plastic_heating;
   sound_speed_floors += ledger.sound_speed_floors;
   hugoniot_poles += ledger.hugoniot_poles;
+  failures += ledger.failures;
+  snap_backs += ledger.snap_backs;
+  spalls += ledger.spalls;
 }
 
 void Audit::book_removed(double kinetic_gone, double internal_gone, double mass, double count,

@@ -68,6 +68,11 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane, int side) const {
   }
 }
 
+bool BoundarySet::drives() const {
+  return std::any_of(planes_.begin(), planes_.end(),
+                     [](const Plane& p) { return p.condition->kind == BoundaryKind::velocity; });
+}
+
 void BoundarySet::fold() const {
   for (const Plane& plane : planes_) {
     const bool sticky = plane.condition->kind == BoundaryKind::sticky;

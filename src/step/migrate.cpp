@@ -138,11 +138,13 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
     --count;
   }
   patch.count = count;
+  if (!holes.empty()) patch.settled = false;
   return removed;
 }
 
 void append(Patch& patch, const double* point, int stride) {
   const int i = patch.count++;
+  patch.settled = patch.tile_current = false;
   patch.records.reserve(static_cast<std::size_t>(patch.groups()) *
                         static_cast<std::size_t>(stride));
   for (int k = 0; k < stride; k += kLanes) at(patch, stride, k, i) = point[k / kLanes];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "krater/core/parallel.hpp"
 
@@ -13,6 +14,16 @@ namespace {
 // A step is halved when the change of velocity alone would move material by more than this share of
 // a cell.
 constexpr double kMaxShare = 0.3;
+
+std::uint64_t hash_of(const double* data, std::size_t count) {
+  std::uint64_t hash = 1469598103934665603U;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint64_t bits;
+    std::memcpy(&bits, data + i, sizeof(bits));
+    hash = (hash ^ bits) * 1099511628211U;
+  }
+  return hash;
+}
 
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
@@ -42,7 +53,7 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
   zeros_.reserve(9 * kLanes);
-  cell_volume_ = std::pow(grid.geometry().h, grid.geometry().dimension);
+  node_settings_.cell_volume = std::pow(grid.geometry().h, grid.geometry().dimension);
 }
 
 double MpmStep::advance(double dt) {
@@ -66,10 +77,13 @@ double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  const BoundaryWork wall = boundary_.constrain();
+  BoundaryWork wall = boundary_.constrain();
   boundary_.mirror();
   lap(Phase::boundary);
-  if (method_.transfer == Transfer::xpic) filter_velocity();
+  if (method_.transfer == Transfer::xpic) {
+    const std::array<double, 3> impulse = filter_velocity();
+    for (std::size_t a = 0; a < 3; ++a) wall.impulse[a] += impulse[a];
+  }
   grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
                     dt);
   audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
@@ -128,9 +142,7 @@ SweepSettings MpmStep::settings(double dt) const {
   s.geometry = &grid_.geometry();
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
-  s.alpha_shock = alpha_of(method_, method_.flip_fraction_shock);
   s.average_cells = method_.cell_averaging;
-  s.shock_switch = method_.cell_averaging || s.alpha != s.alpha_shock;
   return s;
 }
 
@@ -142,6 +154,9 @@ SweepScratch MpmStep::scratch() {
 
 void MpmStep::relink() {
   boundary_.relink(grid_);
+  boundary_blocks_.clear();
+  for (std::size_t n = 0; n < grid_.node_blocks.size(); ++n)
+    if (grid_.node_blocks[n].at_boundary) boundary_blocks_.push_back(n);
   provide_memory();
 }
 
@@ -167,6 +182,7 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   for_each(grid_.patches.size(), [&](std::size_t p) {
     Patch& patch = grid_.patches[p];
     patch.result.fault = {};
+    if (patch.tile_current) return;
     kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
   });
   lap(Phase::scatter);
@@ -174,16 +190,18 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
 }
 
 MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
+  MomentumSettings s = node_settings_;
+  s.dt_force = force_share * dt;
   for_each(grid_.node_blocks.size(), [&](std::size_t n) {
     NodeBlock& block = grid_.node_blocks[n];
+    if (asleep(block)) return;
     kernels_.sum_tiles(grid_, block);
-    if (!block.at_boundary)
-      kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
+    if (!block.at_boundary) kernels_.momentum(block, s);
   });
   lap(Phase::nodes);
   boundary_.fold();
-  for (NodeBlock& block : grid_.node_blocks)
-    if (block.at_boundary) kernels_.momentum(block, force_share * dt, smallest_mass_, cell_volume_);
+  for_each(boundary_blocks_.size(),
+           [&](std::size_t i) { kernels_.momentum(grid_.node_blocks[boundary_blocks_[i]], s); });
   double max_change = 0;
   for (const NodeBlock& block : grid_.node_blocks)
     max_change = std::max(max_change, block.sums.max_change);
@@ -218,7 +236,9 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   }
 }
 
-void MpmStep::filter_velocity() {
+// Returns the impulse of walls: they act on each term S+ S dv(l), which enters with a minus sign [N
+// s].
+std::array<double, 3> MpmStep::filter_velocity() {
   // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
   // (2017), FMPM form.
   const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
@@ -226,7 +246,8 @@ void MpmStep::filter_velocity() {
   filtered_.reserve(2 * total);
   double* sum = filtered_.data();
   double* increment = sum + total;
-  if (total == 0) return;
+  std::array<double, 3> impulse{};
+  if (total == 0) return impulse;
   double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
   std::copy(nodes, nodes + total, sum);
   for (int order = 1; order < method_.xpic_order; ++order) {
@@ -235,7 +256,8 @@ void MpmStep::filter_velocity() {
     particles_to_grid(plain_, velocity_from_kept_, 0);
     double unused = 0;
     momentum(unused, 0);
-    boundary_.constrain();
+    const BoundaryWork term = boundary_.constrain();
+    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a];
     boundary_.mirror();
     lap(Phase::boundary);
     for (std::size_t i = 0; i < total; i += kNodeDoubles)
@@ -245,21 +267,63 @@ void MpmStep::filter_velocity() {
       }
   }
   std::copy(sum, sum + total, nodes);
+  return impulse;
+}
+
+// Dormant blocks. A patch whose nodes are all at rest is gathered once more; if that changed no bit
+// of its points, it would change none in any later step either, and is passed over, its tile with
+// it, until a node around it moves. The hash is paid only in that one gather.
+bool MpmStep::may_sleep(GatherPart part) const {
+  const bool loaded = std::any_of(bodies_.begin(), bodies_.end(), [](const BodyKernelData& b) {
+    return b.columns.body_acceleration >= 0;
+  });
+  return method_.dormant_blocks && part == GatherPart::all && !loaded && !boundary_.drives();
+}
+
+bool MpmStep::asleep(const NodeBlock& block) const {
+  if (!block.inert || block.at_boundary) return false;
+  for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
+    const int p = grid_.tile_refs[static_cast<std::size_t>(t)].patch;
+    if (!grid_.patches[static_cast<std::size_t>(p)].tile_current) return false;
+  }
+  return true;
+}
+
+void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
+                     const SweepScratch& w) {
+  Patch& patch = grid_.patches[p];
+  const BodyKernelData& body = bodies_[static_cast<unsigned>(patch.body)];
+  const int corners = corner_count(grid_.geometry().dimension);
+  const bool still =
+      s.may_sleep &&
+      std::all_of(patch.node_blocks.begin(), patch.node_blocks.begin() + corners,
+                  [this](int n) { return grid_.node_blocks[static_cast<std::size_t>(n)].still; });
+  patch.result.ledger = {};
+  patch.tile_current = still && patch.settled;
+  if (patch.tile_current) {
+    removed_[p] = {};
+    return;
+  }
+  const std::size_t size =
+      static_cast<std::size_t>(patch.groups()) * static_cast<std::size_t>(body.columns.stride);
+  const std::uint64_t before = still ? hash_of(patch.records.data(), size) : 0;
+  if (part != GatherPart::velocity_move) patch.result.max_rate = 0;
+  kernels_.gather(patch, grid_, body, s, w, part);
+  patch.settled = still && hash_of(patch.records.data(), size) == before;
 }
 
 void MpmStep::grid_to_particles(GatherPart part, double dt) {
-  const SweepSettings s = settings(dt);
+  SweepSettings s = settings(dt);
+  s.may_sleep = may_sleep(part);
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
   for_each(grid_.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid_.patches[p];
-    const BodyKernelData& body = bodies_[static_cast<unsigned>(patch.body)];
     const SweepScratch w = scratch();
-    patch.result.ledger = {};
-    if (part != GatherPart::velocity_move) patch.result.max_rate = 0;
-    kernels_.gather(patch, grid_, body, s, w, part);
-    if (moves && patch.result.fault.kind == FaultKind::none)
-      removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, body.columns, w.leavers);
+    gather(p, part, s, w);
+    Patch& patch = grid_.patches[p];
+    if (moves && !patch.tile_current && patch.result.fault.kind == FaultKind::none)
+      removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_,
+                                    bodies_[static_cast<unsigned>(patch.body)].columns, w.leavers);
   });
   lap(Phase::gather);
   throw_faults();

@@ -12,6 +12,7 @@
 #include "krater/materials/kinematics_stage.hpp"
 #include "krater/materials/law_list.hpp"
 #include "krater/materials/signal_speed_stage.hpp"
+#include "krater/materials/strength/rates.hpp"
 #include "krater/materials/strength_stage.hpp"
 #include "material_support.hpp"
 
@@ -94,6 +95,10 @@ TEST_SUITE("contract") {
       const auto values = typical_parameters(law);
       CHECK(law_problem(find_law(law.family, law.name), values.data(), kCopper) == nullptr);
       CHECK(law.needs_shear_modulus == (law.family == "strength"));
+      for (const ParameterInfo& p : law.parameters) {
+        if (p.words != nullptr)
+          CHECK(static_cast<std::size_t>(p.fallback) < parameter_words(p).size());
+      }
     }
     CHECK(find_law("strength", "jonson_cook") == -1);
     CHECK(find_law("eos", "johnson_cook") == -1);
@@ -241,6 +246,41 @@ TEST_SUITE("contract") {
             REQUIRE(same(one.s.yz, get(eight.s.yz, i)));
           }
         });
+        for_each_law(AllLaws{}, Family::damage, [&](const auto& law) {
+          if constexpr (std::remove_cvref_t<decltype(law)>::family == Family::damage) {
+            const auto driver = [&](auto get, auto real) {
+              using Real = decltype(real);
+              const Sym3<Real> d = stress(get);
+              return DamageDriver<Real>{
+                  d,       equivalent_stress(d), d.yz,  d.xz * 1e-8, Real(139e9),
+                  Real(G), 1e7 * get(eps),       get(T)};
+            };
+            const auto one = law.growth(driver(lane, 0.0));
+            const auto eight = law.growth(driver(wide, Pack(0.0)));
+            REQUIRE(same(one.k, get(eight.k, i)));
+            REQUIRE(same(one.eps_D, get(eight.eps_D, i)));
+            const auto curve = make_law<VonMises>(std::vector{9e7, 3e8}.data(), kCopper).at(0.0);
+            const Growth<double> growth{one.k, one.eps_D, one.phi_c};
+            const Growth<Pack> growth8{eight.k, eight.eps_D, eight.phi_c};
+            const auto r1 = rate_return(curve, equivalent_stress(stress(lane)), eps.v[i], G, 0.1,
+                                        growth, 1e-3, dt);
+            const auto curve8 =
+                make_law<VonMises>(std::vector{9e7, 3e8}.data(), kCopper).at(Pack(0.0));
+            const auto r8 = rate_return(curve8, equivalent_stress(stress(wide)), eps.pack(), G,
+                                        Pack(0.1), growth8, Pack(1e-3), dt);
+            REQUIRE(same(r1.step.d, get(r8.step.d, i)));
+          }
+        });
+        const auto turn = [&](auto rate) {
+          using RateForm = decltype(rate);
+          const auto f1 = plus_identity(dtL);
+          const auto f8 = plus_identity(matrix(wide));
+          REQUIRE(same(RateForm::trial(stress(lane), {dtL, dE, f1}, G).xy,
+                       get(RateForm::trial(stress(wide), {matrix(wide), dE8, f8}, G).xy, i)));
+        };
+        turn(TruesdellProjectedRate{});
+        turn(JaumannRate{});
+        turn(GreenNaghdiRate{});
         for_each_law(AllLaws{}, Family::eos, [&](const auto& eos) {
           if constexpr (requires { eos.c0; }) {
             const auto one = advance_energy(eos, rho.v[i], 1.0 / rho.v[i], 1e9, e.v[i], 1e-7, 10.0);

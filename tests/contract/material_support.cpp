@@ -124,6 +124,37 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"tillotson.beta", 5.0},
       {"linear_quadratic.q_lin", 0.3},
       {"linear_quadratic.q_quad", 2.0},
+      {"lemaitre_energy.S", 0.2e6},
+      {"lemaitre_energy.s", 1.0},
+      {"lemaitre_energy.eps_d", 1e-3},
+      {"lemaitre_energy.phi_c", 0.8},
+      {"lemaitre_energy.triaxiality_min", -1.0 / 3.0},
+      {"lemaitre_threshold.e_F", 0.04},
+      {"lemaitre_threshold.e_D", 0.002},
+      {"lemaitre_threshold.s", 0.9},
+      {"lemaitre_threshold.phi_c", 0.8},
+      {"lemaitre_threshold.triaxiality_min", -1.0 / 3.0},
+      {"johnson_cook.D1", 0.01},
+      {"johnson_cook.D2", 0.02},
+      {"johnson_cook.D3", -1.5},
+      {"johnson_cook.D4", 0.014},
+      {"johnson_cook.D5", 1.12},
+      {"johnson_cook.eps_f_min", 1e-3},
+      {"johnson_cook.gamma_D", 0.1},
+      {"johnson_cook.phi_c", 0.7},
+      {"johnson_cook.normalise", 0.0},
+      {"johnson_cook_uncoupled.D1", 0.01},
+      {"johnson_cook_uncoupled.D2", 0.02},
+      {"johnson_cook_uncoupled.D3", -1.5},
+      {"johnson_cook_uncoupled.D4", 0.014},
+      {"johnson_cook_uncoupled.D5", 1.12},
+      {"johnson_cook_uncoupled.epsdot0", 1.0},
+      {"johnson_cook_uncoupled.T_ref", 294.0},
+      {"johnson_cook_uncoupled.T_melt", 1356.0},
+      {"johnson_cook_uncoupled.eps_f_min", 1e-3},
+      {"johnson_cook_uncoupled.softening", 0.0},
+      {"cockcroft_latham.W_c", 3e6},
+      {"maximum_plastic_strain.eps_max", 0.02},
       {"plastic_work.fraction", 0.9},
       {"plastic_work.cp", 383.0},
   };
@@ -147,6 +178,41 @@ std::vector<Recipe> all_recipes() {
       recipes.push_back({.strength = strength.name, .eos = eos, .heating = plastic});
     }
   }
+  for (const std::string& damage : law_names("damage")) {
+    const Recipe recipe{.strength = "johnson_cook",
+                        .eos = "mie_gruneisen_shock",
+                        .heating = true,
+                        .damage = damage};
+    recipes.push_back(recipe);
+    const auto values =
+        typical_parameters(catalogue().at(static_cast<std::size_t>(find_law("damage", damage))));
+    if (!law_degrades(find_law("damage", damage), values.data(), kCopper)) continue;
+    recipes.push_back(recipe);
+    recipes.back().coupling = Coupling::rate;
+    recipes.back().strength = "von_mises";
+    recipes.back().spall_strength = 1e8;
+  }
+  recipes.push_back({.strength = "johnson_cook",
+                     .eos = "mie_gruneisen_polynomial",
+                     .damage = "lemaitre_energy",
+                     .coupling = Coupling::rate,
+                     .degrade = DegradePressure::all});
+  recipes.push_back({.strength = "johnson_cook",
+                     .eos = "mie_gruneisen_shock",
+                     .heating = true,
+                     .damage = "johnson_cook_uncoupled",
+                     .parameters = {{"johnson_cook_uncoupled.softening", 1.0}}});
+  for (const Rate rate : {Rate::truesdell_projected, Rate::jaumann, Rate::green_naghdi}) {
+    recipes.push_back({.strength = "elastic", .eos = "linear", .rate = rate});
+    recipes.push_back(
+        {.strength = "johnson_cook", .eos = "mie_gruneisen_shock", .heating = true, .rate = rate});
+    recipes.push_back({.strength = "von_mises",
+                       .eos = "linear",
+                       .damage = "johnson_cook",
+                       .rate = rate,
+                       .degrade = DegradePressure::none});
+  }
+  recipes.push_back({.strength = "elastic", .eos = "mie_gruneisen_shock", .spall_strength = 2e8});
   for (const std::string& eos : law_names("eos")) {  // fluids
     recipes.push_back({.strength = "", .eos = eos, .viscosity = eos != "linear"});
   }
@@ -155,11 +221,16 @@ std::vector<Recipe> all_recipes() {
 
 std::string describe(const Recipe& recipe) {
   return recipe.strength + " + " + recipe.eos + (recipe.viscosity ? " + viscosity" : "") +
-         (recipe.heating ? " + heating" : "") + (recipe.track_deformation ? " + F" : "");
+         (recipe.heating ? " + heating" : "") + (recipe.track_deformation ? " + F" : "") +
+         (recipe.damage.empty() ? "" : " + damage " + recipe.damage) +
+         (recipe.coupling == Coupling::rate ? " (rate)" : "") +
+         (recipe.spall_strength > 0 ? " + spall" : "") + ", " +
+         kRateNames[static_cast<int>(recipe.rate)];
 }
 
 Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int batch_size)
     : layout_{3},
+      constants_{recipe.constants},
       points_{points},
       batch_size_{batch_size},
       groups_per_batch_{(batch_size + kLanes - 1) / kLanes},
@@ -168,19 +239,30 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
   if (recipe.track_deformation) layout_.state<field::DeformationGradient>(0.0, "output");
   layout_.local_output<field::StepGradient>("method");
   layout_.local_output<field::ExtraDilatation>("method");
-  const auto add = [&](const char* family, const std::string& name) {
+  std::vector<std::vector<double>> kept;
+  kept.reserve(5);
+  const auto planned = [&](const char* family, const std::string& name) -> PlannedLaw {
+    if (name.empty()) return {};
     const int law = find_law(family, name);
-    const std::vector<double> values =
-        typical_parameters(catalogue().at(static_cast<std::size_t>(law)));
-    stages_.emplace_back(factory.make(law, values.data(), kCopper, layout_));
+    const LawInfo& info = catalogue().at(static_cast<std::size_t>(law));
+    kept.push_back(typical_parameters(info));
+    for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+      const auto own = recipe.parameters.find(name + '.' + info.parameters[i].key);
+      if (own != recipe.parameters.end()) kept.back()[i] = own->second;
+    }
+    return {law, kept.back().data()};
   };
-  stages_.emplace_back(factory.kinematics(layout_));
-  if (recipe.viscosity) add("viscosity", "linear_quadratic");
-  if (!recipe.strength.empty()) add("strength", recipe.strength);
-  if (!recipe.eos.empty()) add("eos", recipe.eos);
-  if (recipe.heating) add("heating", "plastic_work");
-  stages_.emplace_back(
-      factory.signal_speed(recipe.viscosity ? 0.3 : 0.0, recipe.viscosity ? 2.0 : 0.0, layout_));
+  MaterialPlan plan;
+  plan.constants = constants_;
+  plan.strength = planned("strength", recipe.strength);
+  plan.eos = planned("eos", recipe.eos);
+  plan.damage = planned("damage", recipe.damage);
+  plan.viscosity = planned("viscosity", recipe.viscosity ? "linear_quadratic" : "");
+  plan.heating = planned("heating", recipe.heating ? "plastic_work" : "");
+  plan.rate = recipe.rate, plan.coupling = recipe.coupling, plan.degrade = recipe.degrade;
+  if (recipe.spall_strength > 0) plan.spall_strength = recipe.spall_strength;
+  if (recipe.viscosity) plan.q_lin = 0.3, plan.q_quad = 2.0;
+  stages_ = make_stages(factory, plan, layout_);
   layout_.check();
 
   const int state_size = groups_ * layout_.stride(), local_size = groups_ * layout_.local_stride();
@@ -192,7 +274,7 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
     for (const Column& c : layout_.columns()) {
       for (int k = 0; k < c.components; ++k) state(c.field->name, i, k) = c.initial;
     }
-    state("density", i) = kCopper.density;
+    state("density", i) = constants_.density;
     state("mass", i) = 1e-9 * (1.0 + 0.1 * i);
     if (layout_.find("deformation_gradient") != nullptr) {
       for (const int k : {0, 4, 8}) state("deformation_gradient", i, k) = 1.0;
@@ -255,7 +337,7 @@ void Body::step(double dt) {
                           .length = 1e-4,
                           .ledger = &ledger,
                           .fault = &fault};
-    for (const auto& stage : stages_) stage->apply(batch);
+    for (const NamedStage& stage : stages_) stage.stage->apply(batch);
   }
 }
 

@@ -5,10 +5,12 @@
 /// must have typical parameters here.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "krater/materials/assembly.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/points/batch.hpp"
 
@@ -34,8 +36,17 @@ struct Recipe {
   bool viscosity = true;
   bool heating = false;
   bool track_deformation = false;  ///< a column F that the kinematics stage keeps
+  std::string damage = {};
+  Rate rate = Rate::truesdell;
+  Coupling coupling = Coupling::effective;
+  DegradePressure degrade = DegradePressure::tension;
+  double spall_strength = 0;  ///< 0: none
+  /// Instead of typical_parameters: "law.key" and value.
+  std::map<std::string, double> parameters = {};
+  MaterialConstants constants = kCopper;
 };
-/// Every strength with every eos (or none, if it gives the whole stress), from the catalogue.
+/// Every strength with every eos (or none, if it gives the whole stress), every damage law with the
+/// couplings it allows, every rate with and without damage; from the catalogue.
 std::vector<Recipe> all_recipes();
 std::string describe(const Recipe& recipe);
 
@@ -45,7 +56,7 @@ class Body {
   Body(const StageFactory& factory, const Recipe& recipe, int points, int batch_size);
 
   const Layout& layout() const { return layout_; }
-  const std::vector<std::unique_ptr<Stage>>& stages() const { return stages_; }
+  const std::vector<NamedStage>& stages() const { return stages_; }
   int points() const { return points_; }
 
   double& state(const char* field, int point, int component = 0);
@@ -66,7 +77,8 @@ class Body {
   void pad();
 
   Layout layout_;
-  std::vector<std::unique_ptr<Stage>> stages_;
+  MaterialConstants constants_;
+  std::vector<NamedStage> stages_;
   int points_, batch_size_, groups_per_batch_, groups_;
   std::vector<double> storage_;
   double *state_, *local_, *zeros_;

@@ -8,17 +8,12 @@
 #include <vector>
 
 #include "krater/geometry/lattice.hpp"
+#include "krater/materials/assembly.hpp"
 #include "krater/points/layout.hpp"
 #include "krater/scene/scene.hpp"
 #include "krater/step/kernels.hpp"
 
 namespace krater {
-
-/// A stage and what it is, for `krater check`.
-struct NamedStage {
-  std::string name;
-  std::unique_ptr<const Stage> stage;
-};
 
 class Body {
  public:
@@ -33,6 +28,7 @@ class Body {
   const FillReport& fill_report() const { return fill_; }
   double q_lin() const { return q_lin_; }
   double initial_sound_speed() const { return sound_speed_; }  ///< longitudinal, undeformed [m/s]
+  bool degrades() const { return degrades_; }  ///< damage weakens the stress, s = (1 - phi) s~
   BodyKernelData kernel_data() const;
 
   /// Seeds of the body inside the domain; throws InputError when there are none.
@@ -46,7 +42,6 @@ class Body {
  private:
   void declare_method_columns(const Scene& scene);
   void add_stages(const StageFactory& factory);
-  void add(std::string name, Stage* stage);
 
   const BodyOptions* options_;
   const MaterialOptions* material_;
@@ -54,6 +49,7 @@ class Body {
   std::vector<NamedStage> stages_;
   std::vector<const Stage*> stage_pointers_;
   FillReport fill_;
+  bool degrades_ = false;
   double q_lin_ = 0, q_quad_ = 0, sound_speed_ = 0;
 };
 

@@ -6,7 +6,8 @@
 
 namespace krater {
 
-/// Held until destruction or the end of the process, however that ends, by a lock on FOLDER/.running.
+/// Held until destruction or the end of the process, however that ends, by a lock on
+/// FOLDER/.running.
 class FolderLock {
  public:
   FolderLock() = default;

@@ -70,7 +70,7 @@ class Simulation {
   void apply_body_force();
   double next_step(double until);
   std::string describe_limit() const;
-  [[noreturn]] void fail(const StepFault& fault) const;
+  std::string describe_fault(const StepFault& fault) const;
   std::string describe_point(int patch, int point) const;
 
   const Scene& scene_;

@@ -20,6 +20,8 @@ struct ParameterInfo {
   double fallback;  ///< default value, or kRequired
   const char* meaning;
   const char* alias = nullptr;  ///< a second spelling that is accepted (conventions.md 2-3)
+  /// "printed|critical": the value is one of these words, kept as its index (`fallback` too).
+  const char* words = nullptr;
 };
 
 /// One parameter of a model and where its value is kept.

@@ -78,6 +78,8 @@ struct Patch {
   AlignedBuffer beta;                ///< per cell: 1 averaged .. 0 shock
   std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim, filled by rebuild
   std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
+  bool settled = false;       ///< the last gather found everything at rest and changed nothing
+  bool tile_current = false;  ///< the tile is that of the present state
   Outbox outbox;
   PatchResult result;
   int groups() const { return (count + 7) / 8; }
@@ -98,6 +100,9 @@ struct NodeBlock {
   BlockKey key;
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   bool at_boundary = false;
+  bool still = false;  ///< every v+ and dv of the block is exactly zero
+  bool inert =
+      false;  ///< and so were its momenta and forces: nothing to compute while its tiles stay
   double* nodes = nullptr;  ///< kBlockNodes * kNodeDoubles
   NodeSums sums;
 };

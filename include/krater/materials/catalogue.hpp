@@ -14,13 +14,15 @@
 namespace krater {
 
 struct LawInfo {
-  std::string family;  ///< the block of the scene: strength, eos, viscosity, heating
+  std::string family;  ///< the block of the scene: strength, damage, eos, viscosity, heating
   std::string name;
   std::vector<ParameterInfo> parameters;  ///< in the order `StageFactory::make` takes their values
   std::string equation;
   std::string reference;
   bool needs_shear_modulus;  ///< the material must have shear_modulus > 0
+  bool in_parts;             ///< can be taken apart for damage and other rates
   bool whole_stress;         ///< gives the pressure too: must be used without an eos
+  bool yields;               ///< strength with a yield stress: what damage and heating need
 };
 
 const std::vector<LawInfo>& catalogue();
@@ -30,6 +32,13 @@ int find_law(std::string_view family, std::string_view name);
 
 /// Names of a family, in catalogue order; the message of an unknown name lists them.
 std::vector<std::string> law_names(std::string_view family);
+
+/// The words that a parameter takes instead of a number, in the order of their values; empty where
+/// it is a number.
+std::vector<std::string> parameter_words(const ParameterInfo& info);
+
+/// Does a damage law degrade the stress, or only tell the failure?
+bool law_degrades(int law, const double* values, const MaterialConstants& constants);
 
 /// What is wrong between parameters that are each in range (T_melt below T_ref), or nullptr.
 const char* law_problem(int law, const double* values, const MaterialConstants& constants);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Pressure, internal energy and sound speed of the step: Algorithm 1 (52)-(60) with alpha = beta =
-/// 1/2 in specific volume, for an undamaged material (phi = 0), for every p = A + B rho e:
-///   e*      = e_n - p_n dv/2 + w,     w = viscous and deviatoric work of the step (SpecificWork)
-///   p       = (A + B rho e*) / (1 + B rho dv/2)
-///   e_{n+1} = e* - p dv/2
+/// 1/2 in specific volume, for every p~ = A + B rho e:
+///   e*      = e_n - p^_n dv/2 + work of viscosity and deviator in the step (SpecificWork)
+///   p~      = (A + B rho e*) / (1 + w B rho dv/2),   the sign of p~ is that of the numerator
+///   p^      = max(w p~, -spall_strength),            w = 0 in tension where the point has failed
+///   e_{n+1} = e* - p^ dv/2
+/// w is 1 - what damage takes of the pressure (Decision 6, materials/carried_stage.hpp); a sound
+/// material without spall strength has p^ = p~. The carried pressure does the work and enters
+/// momentum; (55) as printed omits the last term.
 /// Where p is not linear in e (tillotson), A and B rho are the tangent at e_{n+1}, found by Newton.
-/// The carried pressure does the work and enters momentum; (55) as printed omits the last term.
 /// A strength law may keep voids out of the equation of state, v - void_volume, and limit the
 /// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
 /// c^2 = K_s/rho, floored at 0.01 c0^2 and counted (theory 9).
@@ -35,29 +38,44 @@ KRATER_FORCE_INLINE EnergyStep<Real> close_energy(const PressureSplit<Real>& spl
   return {pressure, fnma(pressure, half_dv, e_star), denominator};
 }
 
-/// The same for any law: Newton over the tangent, which is Algorithm 1 itself with the tangent at
-/// the last iterate. Where it does not converge the denominator is zero.
-template <class Law, class Real>
-KRATER_FORCE_INLINE EnergyStep<Real> advance_energy(const Law& law, Real rho, Real v, Real p,
-                                                    Real e, Real dv, Real work) {
+/// A and B rho of the step. For a law that is not linear in e: its tangent at e_{n+1}, by Newton,
+/// which is Algorithm 1 repeated with the tangent at the last iterate. `close` gives the energy
+/// that follows from a split; `found` says where it converged.
+template <class Law, class Real, class Close>
+KRATER_FORCE_INLINE PressureSplit<Real> split_of_step(const Law& law, Real rho, Real v, Real e,
+                                                      const Close& close, MaskOf<Real>& found) {
+  found = Real(0.0) == Real(0.0);
   if constexpr (LinearInEnergy<Law>) {
-    return close_energy(law.split(rho, v), p, e, dv, work);
+    return law.split(rho, v);
   } else {
     constexpr int cap = 50;  // 2 or 3 off the borders of the law's regimes
     const Real scale = Real(1e-12 * law.c0 * law.c0);
-    EnergyStep<Real> step{p, e, Real(1.0)};
+    PressureSplit<Real> split = law.tangent(rho, v, e);
     Real last = e;
-    MaskOf<Real> active = Real(0.0) == Real(0.0);
+    MaskOf<Real> active = found;
     for (int i = 0; i < cap && any(active); ++i) {
-      const EnergyStep<Real> next = close_energy(law.tangent(rho, v, last), p, e, dv, work);
-      step = {select(active, next.pressure, step.pressure),
-              select(active, next.energy, step.energy),
-              select(active, next.denominator, step.denominator)};
-      active = active & !(abs(next.energy - last) <= fma(Real(1e-12), abs(next.energy), scale));
-      last = step.energy;
+      const PressureSplit<Real> next = law.tangent(rho, v, last);
+      split = {select(active, next.cold, split.cold), select(active, next.thermal, split.thermal)};
+      const Real energy = select(active, close(split), last);
+      active = active & !(abs(energy - last) <= fma(Real(1e-12), abs(energy), scale));
+      last = energy;
     }
-    return {step.pressure, step.energy, select(active, Real(0.0), step.denominator)};
+    found = !active;
+    return split;
   }
+}
+
+/// The step of sound material for any law. Where Newton does not converge the denominator is zero.
+template <class Law, class Real>
+KRATER_FORCE_INLINE EnergyStep<Real> advance_energy(const Law& law, Real rho, Real v, Real p,
+                                                    Real e, Real dv, Real work) {
+  MaskOf<Real> found;
+  const auto close = [&](const PressureSplit<Real>& s) {
+    return close_energy(s, p, e, dv, work).energy;
+  };
+  EnergyStep<Real> step = close_energy(split_of_step(law, rho, v, e, close, found), p, e, dv, work);
+  step.denominator = select(found, step.denominator, Real(0.0));
+  return step;
 }
 
 /// The same step with a pressure not below `least`, which then does the work.
@@ -67,17 +85,46 @@ KRATER_FORCE_INLINE EnergyStep<Real> limited(const EnergyStep<Real>& step, Real 
   return {pressure, fma(step.pressure - pressure, 0.5 * dv, step.energy), step.denominator};
 }
 
-template <class Law>
+template <class Real>
+struct CarriedEnergyStep {
+  EnergyStep<Real> step;  ///< of the carried pressure
+  Real effective;         ///< p~
+  MaskOf<Real> spalled;
+};
+
+/// The same with 1 - w in tension and in compression, and a cut-off (infinite: none).
+template <class Real>
+KRATER_FORCE_INLINE CarriedEnergyStep<Real> close_carried(const PressureSplit<Real>& split, Real p,
+                                                          Real e, Real dv, Real work,
+                                                          Real tension_loss, Real compression_loss,
+                                                          double spall_strength) {
+  const Real half_dv = 0.5 * dv;
+  const Real e_star = fnma(p, half_dv, e + work);
+  const Real numerator = fma(split.thermal, e_star, split.cold);
+  const Real w = Real(1.0) - select(numerator < Real(0.0), tension_loss, compression_loss);
+  const Real denominator = fma(w * split.thermal, half_dv, Real(1.0));
+  const Real effective = numerator / denominator;
+  const Real carried = w * effective;
+  const Real pressure = max(Real(-spall_strength), carried);  // this order keeps a NaN
+  return {{pressure, fnma(pressure, half_dv, e_star), denominator},
+          effective,
+          carried < Real(-spall_strength)};
+}
+
+/// `carries`: damage or a spall strength stands between p~ and p^.
+template <class Law, bool carries>
 class EosStage final : public Stage {
  public:
-  EosStage(const Law& law, Layout& layout)
+  EosStage(const Law& law, double spall_strength, Layout& layout)
       : law_{law},
+        spall_strength_{spall_strength},
         rho_{layout.input<field::Density>(Law::name)},
         p_{layout.state<field::Pressure>(pressure_at_start(law), Law::name)},
         e_{layout.state<field::InternalEnergy>(energy_at_start(law), Law::name)},
         c_{layout.state<field::SoundSpeed>(law.c0, Law::name)},
         volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
         work_{layout.local_input<field::SpecificWork>(Law::name)},
+        loss_{layout.local_optional<field::CarriedLoss>()},
         voids_{layout.optional<field::VoidVolume>()},
         tension_limit_{layout.local_optional<field::TensionLimit>()} {}
 
@@ -100,12 +147,34 @@ class EosStage final : public Stage {
         v = v - view(batch, voids_)(g);
         rho = 1.0 / v;
       }
-      EnergyStep<Pack> step = advance_energy(law_, rho, v, p_p(g), e_p(g), dv, w_p(g));
-      if (tension_limit_.offset >= 0) step = limited(step, view(batch, tension_limit_)(g), dv);
+      EnergyStep<Pack> step;
+      Pack effective;
+      if constexpr (carries) {
+        const auto loss = view(batch, loss_);
+        const auto carried = [&](const PressureSplit<Pack>& s) {
+          return close_carried(s, p_p(g), e_p(g), dv, w_p(g), loss(g, 0), loss(g, 1),
+                               spall_strength_);
+        };
+        Mask found;
+        const auto energy = [&](const PressureSplit<Pack>& s) { return carried(s).step.energy; };
+        const auto all = carried(split_of_step(law_, rho, v, e_p(g), energy, found));
+        step = all.step;
+        step.denominator = select(found, step.denominator, Pack(0.0));
+        effective = all.effective;
+        if (any(all.spalled)) batch.ledger->spalls += count_points(batch, g, all.spalled);
+      } else {
+        step = advance_energy(law_, rho, v, p_p(g), e_p(g), dv, w_p(g));
+        effective = step.pressure;
+      }
+      if (tension_limit_.offset >= 0) {
+        const Pack least = view(batch, tension_limit_)(g);
+        step = limited(step, least, dv);
+        effective = max(least, effective);
+      }
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
       p_p.set(g, step.pressure);
       e_p.set(g, step.energy);
-      const Pack c_squared = law_.bulk_modulus(rho, v, step.pressure, step.energy) * per_rho;
+      const Pack c_squared = law_.bulk_modulus(rho, v, effective, step.energy) * per_rho;
       c_p.set(g, sqrt(max(floor, c_squared)));  // this order keeps a NaN
       const Mask floored = c_squared < floor;
       if (any(floored)) batch.ledger->sound_speed_floors += count_points(batch, g, floored);
@@ -118,12 +187,14 @@ class EosStage final : public Stage {
 
  private:
   Law law_;
+  double spall_strength_;
   Input<field::Density> rho_;
   State<field::Pressure> p_;
   State<field::InternalEnergy> e_;
   State<field::SoundSpeed> c_;
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::SpecificWork> work_;
+  LocalOptional<field::CarriedLoss> loss_;
   Optional<field::VoidVolume> voids_;
   LocalOptional<field::TensionLimit> tension_limit_;
 };

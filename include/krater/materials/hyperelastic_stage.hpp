@@ -2,9 +2,12 @@
 /// \file
 /// Stage of a law that gives the whole stress from F: deviator, pressure, energy and sound speed,
 /// no equation of state. F is updated by the kinematics stage if it was a column when that was
-/// made; otherwise this stage declares it and updates it. New points have F = I.
+/// made; otherwise this stage declares it and updates it. New points have F = I. The law sees
+/// (J_bar/J)^(1/3) F with the cell-averaged volume J_bar = rho_0/rho: the force takes the averaged
+/// pressure, and the work of one without the other is a source of energy (numerics A5).
 #pragma once
 
+#include "krater/core/lane_math.hpp"
 #include "krater/materials/batch_access.hpp"
 #include "krater/materials/kinematics_stage.hpp"
 #include "krater/materials/law.hpp"
@@ -47,7 +50,8 @@ class HyperelasticStage final : public Stage {
         F = advance_deformation(load_mat3(dtL_p, g), F);
         store_mat3(F_p, g, F);
       }
-      const auto response = law_(F);
+      const Pack averaged = law_.rho0 / (rho_p(g) * det(F));
+      const auto response = law_(exp(1.0 / 3.0 * log(averaged)) * F);
       store_sym3(view(batch, s_), g, response.s);
       p_p.set(g, response.pressure);
       e_p.set(g, response.energy);

@@ -18,8 +18,8 @@
 namespace krater {
 
 /// The block of a scene that names a law.
-enum class Family : int { strength, eos, viscosity, heating };
-inline constexpr const char* kFamilyNames[] = {"strength", "eos", "viscosity", "heating"};
+enum class Family : int { strength, damage, eos, viscosity, heating };
+inline constexpr const char* kFamilyNames[] = {"strength", "damage", "eos", "viscosity", "heating"};
 
 }  // namespace krater
 

@@ -5,6 +5,9 @@
 /// `StageFactory::make` takes.
 #pragma once
 
+#include "krater/materials/damage/johnson_cook.hpp"
+#include "krater/materials/damage/lemaitre.hpp"
+#include "krater/materials/damage/strain_criteria.hpp"
 #include "krater/materials/eos/jwl.hpp"
 #include "krater/materials/eos/linear.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
@@ -39,6 +42,12 @@ using AllLaws = LawList<Elastic,                 //
                         SteinbergGuinan,         //
                         DruckerPrager,           //
                         NeoHookean,              //
+                        LemaitreEnergy,          //
+                        LemaitreThreshold,       //
+                        JohnsonCookDamage,       //
+                        JohnsonCookUncoupled,    //
+                        CockcroftLatham,         //
+                        MaximumPlasticStrain,    //
                         LinearEos,               //
                         MieGruneisenPolynomial,  //
                         MieGruneisenShock,       //

@@ -15,7 +15,9 @@ struct BatchData;
 enum class StageOrder : int {
   kinematics,
   viscosity,
+  trial,
   strength,
+  carried,
   equation_of_state,
   heating,
   signal_speed
@@ -39,11 +41,37 @@ struct MaterialConstants {
   double initial_temperature;  ///< [K]
 };
 
+/// Objective rate of the deviator (theory 3, Decision 1).
+enum class Rate : int { truesdell, truesdell_projected, jaumann, green_naghdi };
+inline constexpr const char* kRateNames[] = {"truesdell", "truesdell_projected", "jaumann",
+                                             "green_naghdi"};
+/// How damage enters the yield condition (Decision 8).
+enum class Coupling : int { effective, rate };
+/// Which pressure damage degrades (Decision 6).
+enum class DegradePressure : int { tension, none, all };
+
+/// The deviator's update in stages of its own (materials/assembly.hpp says in which order): where a
+/// scene has damage or a rate other than truesdell.
+enum class Part : int { trial, flow_stress, plastic_return, rate_return, growth, carried };
+struct PartRequest {
+  Part part;
+  int law = -1;  ///< of strength, or for growth and carried of damage (-1: sound for ever)
+  const double* values = nullptr;
+  MaterialConstants constants;
+  Rate rate = Rate::truesdell;
+  DegradePressure degrade = DegradePressure::tension;
+};
+
 /// Makes stages of one instruction-set level (materials/stages_hot.cpp is compiled once per level).
 struct StageFactory {
   /// `law`: index in catalogue() (materials/catalogue.hpp); `values`: its parameters in declared
   /// order. Ownership passes to the caller.
   Stage* (*make)(int law, const double* values, const MaterialConstants& constants, Layout& layout);
+  Stage* (*part)(const PartRequest& request, Layout& layout);
+  /// An equation of state whose pressure is carried by damaged material or cut off at
+  /// `spall_strength` (infinite: never).
+  Stage* (*carrying_eos)(int law, const double* values, const MaterialConstants& constants,
+                         double spall_strength, Layout& layout);
   Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
   Stage* (*signal_speed)(double q_lin, double q_quad,
                          Layout& layout);  ///< always last: c_L, Qv -> signal speed

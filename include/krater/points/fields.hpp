@@ -51,6 +51,9 @@ KRATER_FIELD(PlasticStrain, "plastic_strain", "1", 1, "accumulated equivalent pl
 KRATER_FIELD(
     VoidVolume, "void_volume", "m^3/kg", 1,
     "specific volume of voids opened by plastic flow; the equation of state does not see it");
+KRATER_FIELD(Damage, "damage", "1", 1, "damage phi: 0 sound, fails at phi_c");
+KRATER_FIELD(Failed, "failed", "1", 1,
+             "1 where the material has failed: no deviator, no tension, no affine velocity");
 KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last update, undamaged");
 KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1,
              "|tr D| h / c of the last update: switches cell averaging off");
@@ -79,6 +82,15 @@ KRATER_FIELD(ShearModulus, "shear_modulus", "Pa", 1, "undamaged shear modulus of
 KRATER_FIELD(TensionLimit, "tension_limit", "Pa", 1,
              "lowest pressure that the strength law lets the material carry");
 KRATER_FIELD(PlasticWork, "plastic_work", "J/kg", 1, "q d / rho of the step");
+KRATER_FIELD(EffectiveDeviator, "effective_deviator", "Pa", 6,
+             "deviator on the undamaged area: the trial, then the end of the step");
+KRATER_FIELD(EquivalentStress, "equivalent_stress", "Pa", 1, "effective q of the step");
+KRATER_FIELD(PlasticIncrement, "plastic_increment", "1", 1, "plastic strain of the step");
+KRATER_FIELD(DamageGrowth, "damage_growth", "1", 3,
+             "d phi/d eps of the step, plastic strain where growth starts, phi_c");
+KRATER_FIELD(SnapBack, "snap_back", "1", 1, "1 where softening snapped back in the step");
+KRATER_FIELD(CarriedLoss, "carried_loss", "1", 2,
+             "1 - w of the pressure, in tension and in compression (theory 9)");
 KRATER_FIELD(SignalSpeed, "signal_speed", "m/s", 1, "Qv + sqrt(Qv^2 + c_L^2), theory 12");
 
 #undef KRATER_FIELD

@@ -13,6 +13,7 @@
 #include "krater/geometry/frame.hpp"
 #include "krater/geometry/lattice.hpp"
 #include "krater/geometry/solid.hpp"
+#include "krater/materials/stage.hpp"
 #include "krater/step/options.hpp"
 
 namespace krater {
@@ -42,7 +43,11 @@ struct MaterialOptions {
   std::string name, where;
   double density = 0, shear_modulus = 0, initial_temperature = 293;
   std::optional<double> bulk_modulus;  ///< of the elastic constants, where they give it
-  std::optional<LawChoice> eos, strength, viscosity, heating;  ///< absent: no such stage
+  std::optional<LawChoice> eos, strength, damage, viscosity, heating;  ///< absent: no such stage
+  Rate rate = Rate::truesdell;
+  Coupling coupling = Coupling::effective;                      ///< of damage
+  DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage
+  std::optional<double> spall_strength;  ///< largest tension carried [Pa]; absent: no limit
 };
 
 /// A vector field given by expressions in x y z r t (and X Y Z R: position at the start), or

@@ -24,6 +24,7 @@ struct Audit {
   std::array<double, 3> removed_momentum{}, wall_impulse{};
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
+  double failures = 0, snap_backs = 0, spalls = 0;                                  ///< events
   double wall_columns = 0;   ///< columns in contact in the last step
   double step_external = 0;  ///< work of body forces in the step under way [J]
 

@@ -49,6 +49,8 @@ class BoundarySet {
   BoundaryWork constrain() const;
   /// Give ghosts the mirrored values the gather reads.
   void mirror() const;
+  /// Some plane moves nodes by itself.
+  bool drives() const;
   bool is_open(int axis, int side) const {
     return conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)].kind ==
            BoundaryKind::open;

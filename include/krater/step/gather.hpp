@@ -5,12 +5,10 @@
 /// cache:
 ///   s+ = sum S v+,  s- = s+ - sum S dv,  v_p <- s+ + alpha (v_p - s-),  x_p <- x_p + dt s+,
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
-/// alpha = 1: FLIP; 0: APIC; between: TFLIP, less of the old residual where the shock switch is on.
-/// sum m (v_p - s-) = 0 only over all points: an alpha that varies would lose momentum. What a
-/// patch's shock cells drop more than the others, they get back as one common velocity
-/// (give_back()).
-/// An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand
-/// for ever.
+/// alpha = 1: FLIP; 0: APIC; between: TFLIP. One alpha for all points: sum m (v_p - s-) vanishes
+/// only over all of them, so an alpha that varied in space would lose momentum. An isolated point
+/// (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand for ever. Nor does
+/// a failed one: it is a fragment on its way, without neighbours to hold it.
 #include "krater/step/scatter.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -18,7 +16,7 @@ namespace krater::inline KRATER_ISA {
 /// The columns the gather touches, as views.
 struct GatherViews {
   WriteView position, velocity, affine, kept;
-  ReadView mass, density, half_width, body_acceleration, energy, sound_speed;
+  ReadView mass, density, half_width, body_acceleration, energy, sound_speed, failed;
   WriteView indicator;
   WriteView step_gradient, extra_dilatation;
   ReadView signal;
@@ -38,6 +36,7 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
           read(c.body_acceleration),
           read(c.energy),
           read(c.sound_speed),
+          read(c.failed),
           write(c.indicator),
           WriteView{w.local + c.local_gradient, c.local_stride},
           WriteView{w.local + c.local_dilatation, c.local_stride},
@@ -83,8 +82,6 @@ KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>
 /// Running sums of a patch, one per lane, folded once at the end.
 struct GatherSums {
   Pack kinetic = 0.0, internal = 0.0, external = 0.0;
-  Pack shock_mass = 0.0,
-       dropped[3] = {0.0, 0.0, 0.0};  ///< sum (1 - beta) m and (1 - beta) m (v - s-)
 };
 
 template <GatherPart Part>
@@ -103,23 +100,19 @@ struct PartTraits {
   static constexpr bool last = move;    ///< velocities and L are final: sum the energies
 };
 
-/// Velocity and position of 8 points; returns nothing, adds the work of body forces. `shock`:
-/// 1 - beta.
+/// Velocity and position of 8 points; adds the work of body forces.
 template <class Frame, GatherPart Part>
 KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Frame::dim>& n,
-                                     const SweepSettings& s, Pack alpha, Pack shock, int g,
-                                     GatherSums& sums) {
+                                     const SweepSettings& s, int g, GatherSums& sums) {
   using T = PartTraits<Part>;
-  const Pack m = view.mass(g), shock_mass = shock * m;
-  if constexpr (T::velocity) sums.shock_mass += shock_mass;
+  const Pack m = view.mass(g), alpha = s.alpha;
   for (int a = 0; a < Frame::dim; ++a) {
     const Pack plus = n.V[a], change = n.V[4 + a];
     const Pack old = view.velocity(g, a);
     Pack carried = plus;  // velocity the position moves with
     if constexpr (T::velocity) {
-      const Pack residual = old - (plus - change), fresh = fma(alpha, residual, plus);
+      const Pack fresh = fma(alpha, old - (plus - change), plus);
       view.velocity.set(g, a, fresh);
-      sums.dropped[a] = fma(shock_mass, residual, sums.dropped[a]);
       sums.external =
           fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), change, plus), sums.external);
       if constexpr (T::mean) carried = 0.5 * (old + fresh);
@@ -151,8 +144,8 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
   return trace;
 }
 
-/// L carried to the grid (zero for an isolated point) and the kinetic energy, affine part 1/2 m
-/// h^2/4 L:L included.
+/// L carried to the grid (zero for an isolated or failed point) and the kinetic energy, affine part
+/// 1/2 m h^2/4 L:L included.
 template <class Frame, bool Affine>
 KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSums<Frame::dim>& n,
                                          const LaneWeights<Frame::dim>& lw, double moment, int g,
@@ -168,7 +161,7 @@ KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSum
       for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
       own = own * squares;
     }
-    const Mask alone = own > 0.9 * n.V[3];
+    const Mask alone = (own > 0.9 * n.V[3]) | (view.failed(g) > Pack(0.5));
     for (int a = 0; a < D; ++a) {
       Pack squared = 0.0;
       for (int i = 0; i < D; ++i) {
@@ -180,28 +173,6 @@ KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSum
     }
   }
   sums.kinetic = fma(0.5 * m, twice, sums.kinetic);
-}
-
-/// Momentum dropped by alpha_shock < alpha, shared by the points that dropped it; their kinetic
-/// energy with it.
-template <int Dim, bool Last>
-KRATER_FORCE_INLINE void give_back(const Patch& patch, const SweepSettings& s,
-                                   const SweepScratch& w, const GatherViews& view,
-                                   GatherSums& sums) {
-  const double shock_mass = sum(sums.shock_mass);
-  if (!s.shock_switch || s.alpha == s.alpha_shock || !(shock_mass > 0)) return;
-  double common[Dim];
-  for (int a = 0; a < Dim; ++a)
-    common[a] = (s.alpha - s.alpha_shock) * sum(sums.dropped[a]) / shock_mass;
-  for (int g = 0; g < patch.groups(); ++g) {
-    const Pack shock = 1.0 - look_up(patch.beta.data(), w.pressures + kLanes * g);
-    for (int a = 0; a < Dim; ++a) {
-      const Pack old = view.velocity(g, a), change = shock * common[a];
-      view.velocity.set(g, a, old + change);
-      if constexpr (Last)
-        sums.kinetic = fma(view.mass(g) * change, fma(Pack(0.5), change, old), sums.kinetic);
-    }
-  }
 }
 
 /// Lanes whose point is no longer in this block or not inside the domain.

@@ -24,7 +24,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     compute_weights<D, Shape, false>(grid, origin, reading(view.position), view.half_width, g, lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;
-    if (s.shock_switch) store(cell, cell_index<D>(grid, origin, reading(view.position), g));
+    if (s.average_cells) store(cell, cell_index<D>(grid, origin, reading(view.position), g));
     const Pack r = view.position(g, 0);
 
     Pack check = n.V[0];
@@ -46,13 +46,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
       }
     }
     if constexpr (T::velocity || T::move || T::keep) {
-      Pack alpha = s.alpha, shock = 0.0;
-      if (s.shock_switch) {
-        const Pack beta = look_up(patch.beta.data(), cell);
-        alpha = fma(beta, Pack(s.alpha - s.alpha_shock), Pack(s.alpha_shock));
-        shock = 1.0 - beta;
-      }
-      move_points<Frame, Part>(view, n, s, alpha, shock, g, sums);
+      move_points<Frame, Part>(view, n, s, g, sums);
     }
     if constexpr (T::last) {
       finish_velocity<Frame, Affine>(view, n, lw, 0.25 * grid.h * grid.h, g, sums);
@@ -61,7 +55,6 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
                                           first_lanes(patch.count - kLanes * g)));
     }
   }
-  if constexpr (T::velocity) give_back<D, T::last>(patch, s, w, view, sums);
 }
 
 /// ExtraDilatation: tr L -> dt beta (tr_c - tr L).

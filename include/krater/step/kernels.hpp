@@ -19,7 +19,7 @@ struct PointColumns {
   int stride = 0, local_stride = 0;
   int position = -1, velocity = -1, mass = -1, density = -1;
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
-  int indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
+  int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
       local_rate = -1;  ///< local record
 };
@@ -35,9 +35,16 @@ struct BodyKernelData {
 struct SweepSettings {
   const GridGeometry* geometry = nullptr;
   double dt = 0;
-  double alpha = 1, alpha_shock = 1;  ///< share of the old velocity residual kept: FLIP 1, APIC 0
-  bool average_cells = false;         ///< numerics A5
-  bool shock_switch = false;          ///< compute beta (averaging, or alpha differs in shocks)
+  double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
+  bool may_sleep = false;      ///< blocks at rest may be passed over
+  bool average_cells = false;  ///< numerics A5
+};
+
+struct MomentumSettings {
+  double dt_force = 0;        ///< time step, 0: no forces [s]
+  double smallest_mass = 0;   ///< nodes up to it feel no force [kg]
+  double cell_volume = 1;     ///< h^dim
+  double flush_velocity = 0;  ///< slower nodes are at rest [m/s]
 };
 
 /// Memory of one thread.
@@ -73,8 +80,7 @@ class Kernels {
   /// Sum the tiles over one node block.
   virtual void sum_tiles(const BlockGrid& grid, NodeBlock& block) const = 0;
   /// v- = p/m, dv = dt_force f/m, v+ = v- + dv, and the sums of the audit.
-  virtual void momentum(NodeBlock& block, double dt_force, double smallest_mass,
-                        double cell_volume) const = 0;
+  virtual void momentum(NodeBlock& block, const MomentumSettings& s) const = 0;
   /// Velocities, positions, stresses of one patch from the nodes.
   virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
                       const SweepSettings& s, const SweepScratch& w, GatherPart part) const = 0;

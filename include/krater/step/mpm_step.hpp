@@ -51,7 +51,9 @@ class MpmStep {
   /// Call after points were added or read from a checkpoint: links, memory, padding.
   void relink();
   /// Smallest mass of a point, once for all [kg].
-  void set_smallest_mass(double m) { smallest_mass_ = 1e-12 * m; }
+  void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-12 * m; }
+  /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
+  void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 
  private:
   struct GridEnergy {
@@ -61,7 +63,10 @@ class MpmStep {
                          double dt);
   GridEnergy momentum(double& dt, double force_share);
   void halve_until_safe(double& dt, double max_change);
-  void filter_velocity();
+  bool may_sleep(GatherPart part) const;
+  bool asleep(const NodeBlock& block) const;
+  void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
+  std::array<double, 3> filter_velocity();
   void grid_to_particles(GatherPart part, double dt);
   void combine_patches(bool forces_worked);
   void provide_memory();
@@ -85,10 +90,10 @@ class MpmStep {
 
   Audit audit_;
   Stopwatch<phase_names.size()> watch_;
-  double smallest_mass_ = 0;
+  MomentumSettings node_settings_;
+  std::vector<std::size_t> boundary_blocks_;
   double max_rate_ = 0;
   int limiting_patch_ = -1;
-  double cell_volume_ = 1;
   AlignedBuffer zeros_, filtered_;
   std::vector<Removed> removed_;
   struct ThreadMemory {

@@ -45,18 +45,22 @@ void sum_block(const BlockGrid& grid, NodeBlock& block) {
 /// bounds |L| dt.
 inline constexpr double kFilledNode = 0.01;
 
-KRATER_FORCE_INLINE void update_block(NodeBlock& block, double dt, double smallest_mass,
-                                      double cell_volume) {
+/// Velocities below `flush` become exactly zero: the numerical precursor of a signal runs ahead of
+/// it by the support of the shape functions in every step, at amplitudes without meaning, and would
+/// wake every dormant block.
+KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& s) {
   Pack before = 0.0, after = 0.0, change = 0.0;
+  const Pack flush = s.flush_velocity * s.flush_velocity;
+  Mask moving = Pack(0.0) > Pack(0.0), loaded = moving;
   for (int first = 0; first < kBlockNodes; first += kLanes) {
     double* record = block.nodes + kNodeDoubles * first;
     Pack n[8];
     for (int i = 0; i < 8; ++i) n[i] = load(record + 8 * i);
     transpose8(n);
     const Pack m = n[0], V = n[7];
-    const Mask exists = m > Pack(0.0), moves = m > Pack(smallest_mass);
+    const Mask exists = m > Pack(0.0), moves = m > Pack(s.smallest_mass);
     const Pack inverse = select(exists, 1.0 / m, Pack(0.0));
-    const Pack step = select(moves, dt * inverse, Pack(0.0));
+    const Pack step = select(moves, s.dt_force * inverse, Pack(0.0));
     Pack out[8];
     Pack old2 = 0.0, new2 = 0.0, dv2 = 0.0;
     for (int a = 0; a < 3; ++a) {
@@ -64,12 +68,22 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, double dt, double smalle
       old2 = fma(minus, minus, old2), new2 = fma(plus, plus, new2), dv2 = fma(dv, dv, dv2);
       out[a] = plus, out[4 + a] = dv;
     }
+    const Mask still = (old2 <= flush) & (new2 <= flush);  // false for a NaN
+    for (int a = 0; a < 3; ++a) {
+      out[a] = select(still, Pack(0.0), out[a]);
+      out[4 + a] = select(still, Pack(0.0), out[4 + a]);
+    }
+    old2 = select(still, Pack(0.0), old2), new2 = select(still, Pack(0.0), new2);
+    moving = moving | !still;
+    for (int c = 1; c < 7; ++c) loaded = loaded | (n[c] != Pack(0.0));
     out[3] = m, out[7] = V;
     before = fma(m, old2, before), after = fma(m, new2, after);
-    change = max(change, select(V > Pack(kFilledNode * cell_volume), dv2, Pack(0.0)));
+    change = max(change, select(V > Pack(kFilledNode * s.cell_volume), dv2, Pack(0.0)));
     transpose8(out);
     for (int i = 0; i < 8; ++i) store(record + 8 * i, out[i]);
   }
+  block.still = none(moving);
+  block.inert = block.still && none(loaded);
   block.sums = {0.5 * sum(before), 0.5 * sum(after), hmax(sqrt(change))};
 }
 

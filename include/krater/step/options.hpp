@@ -32,9 +32,9 @@ struct MethodOptions {
   bool stagger = true;
   double jitter = 0;  ///< fraction of the point spacing
   unsigned seed = 1;
-  bool cell_averaging = true;         ///< numerics A5
-  double flip_fraction = 0.999;       ///< TFLIP alpha where the flow is smooth
-  double flip_fraction_shock = 0.97;  ///< TFLIP alpha where the shock switch is on
+  bool cell_averaging = true;   ///< numerics A5
+  double flip_fraction = 0.99;  ///< TFLIP alpha
+  bool dormant_blocks = true;   ///< skip what is at rest (the bits are the same)
 };
 
 }  // namespace krater

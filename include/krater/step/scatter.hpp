@@ -24,13 +24,12 @@ void force_pressures(Patch& patch, const PointColumns& c, const SweepSettings& s
   const ReadView p = column(c.pressure), q = column(c.viscous), m = column(c.mass),
                  rho = column(c.density);
   double* out = w.pressures;
-  if (s.shock_switch)
-    shock_switch<Dim>(patch, *s.geometry, column(c.position), column(c.indicator), out,
-                      patch.beta.data());
   if (!s.average_cells) {
     for (int g = 0; g < patch.groups(); ++g) store(out + kLanes * g, p(g) + q(g));
     return;
   }
+  shock_switch<Dim>(patch, *s.geometry, column(c.position), column(c.indicator), out,
+                    patch.beta.data());
   const CellSums sums{w.cells, w.cells + kBlockNodes};
   sums.clear();
   for (int g = 0; g < patch.groups(); ++g) sums.add(out + kLanes * g, m(g) / rho(g), p(g) + q(g));

@@ -18,9 +18,8 @@ class TransferKernels final : public Kernels {
   void sum_tiles(const BlockGrid& grid, NodeBlock& block) const override {
     sum_block<Frame::dim>(grid, block);
   }
-  void momentum(NodeBlock& block, double dt, double smallest_mass,
-                double cell_volume) const override {
-    update_block(block, dt, smallest_mass, cell_volume);
+  void momentum(NodeBlock& block, const MomentumSettings& s) const override {
+    update_block(block, s);
   }
   void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
               const SweepSettings& s, const SweepScratch& w, GatherPart part) const override {

@@ -3,8 +3,11 @@
 // speed.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "krater/materials/eos/mie_gruneisen_shock.hpp"
+#include "krater/materials/eos_stage.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
 #include "krater/materials/heating_stage.hpp"
 #include "krater/materials/kinematics_stage.hpp"
@@ -81,5 +84,28 @@ TEST_SUITE("unit") {
     const double Qv = 0.3 * c + 2.0 * 2.0 * h * 1e6;
     CHECK(signal_speed(c, G, 1.0 / rho, -1e6, 0.3, 2.0, h) ==
           doctest::Approx(Qv + std::sqrt(Qv * Qv + c_L * c_L)).epsilon(1e-14));
+  }
+
+  TEST_CASE("energy closure, carried: p~ is that of the new energy, p^ = w p~ cut off, p^ works") {
+    const double values[] = {3940.0, 1.489, 2.02};
+    const auto law = make_law<MieGruneisenShock>(values, {8960.0, 46e9, 294.0});
+    for (const double x : {0.8, 0.97, 1.02, 1.3}) {
+      const double rho = 8960.0 * x, v = 1.0 / rho, dv = (x < 1.0 ? 0.1 : -0.1) * v;
+      const auto split = law.split(rho, v);
+      for (const double loss : {0.0, 0.4, 0.999, 1.0}) {
+        for (const double spall : {1e300, 1e9}) {
+          const double p = -1e9, e = 2e5, work = 3e3;
+          const auto all = close_carried(split, p, e, dv, work, loss, 0.5 * loss, spall);
+          const double w = 1.0 - (all.effective < 0.0 ? loss : 0.5 * loss);
+          CHECK(all.spalled == (w * all.effective < -spall));
+          CHECK(all.step.pressure == std::max(w * all.effective, -spall));
+          CHECK(all.step.energy ==
+                doctest::Approx(e + work - 0.5 * dv * (p + all.step.pressure)).epsilon(1e-13));
+          if (all.spalled) continue;
+          CHECK(all.effective ==
+                doctest::Approx(split.cold + split.thermal * all.step.energy).epsilon(1e-12));
+        }
+      }
+    }
   }
 }

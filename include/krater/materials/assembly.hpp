@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file materials/assembly.hpp
+/// A material put together: which stages, in which order. Sound material with the default rate:
+///   kinematics, viscosity, strength (trial, return and work in one), eos, heating, signal speed.
+/// With damage or another rate the strength is several stages, which hand the effective deviator on
+/// in a local record:
+///   trial -> return -> growth of damage -> carried stress             coupling: effective
+///   trial -> flow stress -> growth -> return with damage -> carried   coupling: rate
+/// so that neither rates nor damage laws multiply the compiled yield laws.
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/materials/stage.hpp"
+
+namespace krater {
+
+/// A stage and what it is, for `krater check`.
+struct NamedStage {
+  std::string name;
+  std::unique_ptr<const Stage> stage;
+};
+
+/// A law of the catalogue with its parameters in declared order; law < 0: there is none.
+struct PlannedLaw {
+  int law = -1;
+  const double* values = nullptr;
+};
+
+struct MaterialPlan {
+  MaterialConstants constants;
+  PlannedLaw eos, strength, damage, viscosity, heating;
+  Rate rate = Rate::truesdell;
+  Coupling coupling = Coupling::effective;
+  DegradePressure degrade = DegradePressure::tension;
+  double spall_strength = std::numeric_limits<double>::infinity();  ///< infinite: none
+  double q_lin = 0, q_quad = 0;                                     ///< of the viscosity
+};
+
+/// The stages in the order in which they are applied. The method has declared its columns and
+/// locals before; the layout is not yet checked.
+std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialPlan& plan,
+                                    Layout& layout);
+
+}  // namespace krater

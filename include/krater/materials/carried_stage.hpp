@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// From the effective deviator to what the material carries: the one place where damage degrades
+/// the deviator. phi_{n+1} = phi(d), failure at phi_c or by snap-back, s_{n+1} = (1 - phi_{n+1})
+/// s~_{n+1}, zero after failure; then the work (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE and the
+/// plastic work q_{n+1} d/rho of the carried stresses. A point that fails in this step has s_{n+1}
+/// = 0 and no tension before e is formed, so the elastic energy it releases stays in e as heat
+/// (theory 4). What the pressure loses is told to the equation of state: 1 - w.
+#pragma once
+
+#include "krater/materials/damage_stage.hpp"
+#include "krater/materials/strength_stage.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+/// A sound material whose deviator was updated in several stages for its rate's sake.
+class SoundStage final : public Stage {
+ public:
+  SoundStage(const MaterialConstants& constants, Layout& layout)
+      : G_{constants.shear_modulus},
+        s_{layout.state<field::DeviatoricStress>(0.0, kName)},
+        mass_{layout.input<field::Mass>(kName)},
+        strain_{layout.local_input<field::StrainStep>(kName)},
+        volumes_{layout.local_input<field::SpecificVolumes>(kName)},
+        effective_{layout.local_input<field::EffectiveDeviator>(kName)},
+        q_{layout.local_optional<field::EquivalentStress>()},
+        increment_{layout.local_optional<field::PlasticIncrement>()},
+        work_{layout.local_output<field::SpecificWork>(kName)},
+        shear_{layout.local_output<field::ShearModulus>(kName)},
+        plastic_work_{layout.local_output<field::PlasticWork>(kName)} {}
+
+  StageOrder order() const override { return StageOrder::carried; }
+
+  void apply(const BatchData& batch) const override {
+    const auto s_p = view(batch, s_);
+    const auto v = view(batch, volumes_);
+    const auto work = view(batch, work_);
+    for (int g = 0; g < batch.groups; ++g) {
+      const Sym3<Pack> s = load_sym3(view(batch, effective_), g);
+      const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
+      work.set(g, work(g) + deviatoric_work(load_sym3(s_p, g), s, dE, v(g, 0), v(g, 1)));
+      store_sym3(s_p, g, s);
+      view(batch, shear_).set(g, Pack(G_));
+      const Pack plastic = view(batch, q_)(g) * view(batch, increment_)(g) * v(g, 1);
+      view(batch, plastic_work_).set(g, plastic);
+      batch.ledger->plastic_work += sum(view(batch, mass_)(g) * plastic);
+    }
+  }
+
+ private:
+  static constexpr const char* kName = "deviator";
+  double G_;
+  State<field::DeviatoricStress> s_;
+  Input<field::Mass> mass_;
+  LocalInput<field::StrainStep> strain_;
+  LocalInput<field::SpecificVolumes> volumes_;
+  LocalInput<field::EffectiveDeviator> effective_;
+  LocalOptional<field::EquivalentStress> q_;  // these two: yielding laws only
+  LocalOptional<field::PlasticIncrement> increment_;
+  LocalOutput<field::SpecificWork> work_;
+  LocalOutput<field::ShearModulus> shear_;
+  LocalOutput<field::PlasticWork> plastic_work_;
+};
+
+class CarriedStage final : public Stage {
+ public:
+  CarriedStage(bool degrades, DegradePressure mode, const MaterialConstants& constants,
+               Layout& layout)
+      : degrades_{degrades ? 1.0 : 0.0},
+        loss_{pressure_loss(degrades, mode)},
+        G_{constants.shear_modulus},
+        s_{layout.state<field::DeviatoricStress>(0.0, kName)},
+        phi_{layout.state<field::Damage>(0.0, kName)},
+        failed_{layout.state<field::Failed>(0.0, kName)},
+        eps_{layout.input<field::PlasticStrain>(kName)},
+        mass_{layout.input<field::Mass>(kName)},
+        strain_{layout.local_input<field::StrainStep>(kName)},
+        volumes_{layout.local_input<field::SpecificVolumes>(kName)},
+        effective_{layout.local_input<field::EffectiveDeviator>(kName)},
+        q_{layout.local_input<field::EquivalentStress>(kName)},
+        increment_{layout.local_input<field::PlasticIncrement>(kName)},
+        growth_{layout.local_input<field::DamageGrowth>(kName)},
+        snap_back_{layout.local_optional<field::SnapBack>()},
+        work_{layout.local_output<field::SpecificWork>(kName)},
+        shear_{layout.local_output<field::ShearModulus>(kName)},
+        plastic_work_{layout.local_output<field::PlasticWork>(kName)},
+        carried_loss_{layout.local_output<field::CarriedLoss>(kName)} {}
+
+  StageOrder order() const override { return StageOrder::carried; }
+
+  void apply(const BatchData& batch) const override {
+    for (int g = 0; g < batch.groups; ++g) {
+      const Mask failed = damage(batch, g);
+      carry(batch, g, failed);
+    }
+  }
+
+ private:
+  static constexpr const char* kName = "damage";
+
+  /// phi and failure of the end of the step.
+  KRATER_FORCE_INLINE Mask damage(const BatchData& batch, int g) const {
+    const auto phi_p = view(batch, phi_);
+    const auto failed_p = view(batch, failed_);
+    const auto growth_p = view(batch, growth_);
+    const Growth<Pack> growth{growth_p(g, 0), growth_p(g, 1), growth_p(g, 2)};
+    const Pack before = failed_p(g);
+    const Pack phi =
+        damage_after(growth, phi_p(g), view(batch, eps_)(g), view(batch, increment_)(g));
+    const Mask old = before > Pack(0.5);
+    const Mask reached = (phi >= growth.phi_c) | (view(batch, snap_back_)(g) > Pack(0.5));
+    const Mask fresh = reached & !old;
+    if (any(fresh)) batch.ledger->failures += count_points(batch, g, fresh);
+    report(batch, FaultKind::not_finite_state, g, !is_finite(phi + before));
+    phi_p.set(g, phi);
+    failed_p.set(g, select(fresh, Pack(1.0), before));
+    return old | fresh;
+  }
+
+  KRATER_FORCE_INLINE void carry(const BatchData& batch, int g, Mask failed) const {
+    const auto s_p = view(batch, s_);
+    const auto v = view(batch, volumes_);
+    const auto work = view(batch, work_);
+    const auto loss = view(batch, carried_loss_);
+    const Pack phi = view(batch, phi_)(g);
+    const Pack intact = select(failed, Pack(0.0), fnma(Pack(degrades_), phi, Pack(1.0)));
+    const Sym3<Pack> s = intact * load_sym3(view(batch, effective_), g);
+    const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
+    work.set(g, work(g) + deviatoric_work(load_sym3(s_p, g), s, dE, v(g, 0), v(g, 1)));
+    store_sym3(s_p, g, s);
+    view(batch, shear_).set(g, select(failed, Pack(0.0), Pack(G_)));
+    const Pack plastic = intact * view(batch, q_)(g) * view(batch, increment_)(g) * v(g, 1);
+    view(batch, plastic_work_).set(g, plastic);
+    batch.ledger->plastic_work += sum(view(batch, mass_)(g) * plastic);
+    loss.set(g, 0, select(failed, Pack(1.0), loss_.tension * phi));
+    loss.set(g, 1, loss_.compression * phi);
+  }
+
+  double degrades_;
+  PressureLoss loss_;
+  double G_;
+  State<field::DeviatoricStress> s_;
+  State<field::Damage> phi_;
+  State<field::Failed> failed_;
+  Input<field::PlasticStrain> eps_;
+  Input<field::Mass> mass_;
+  LocalInput<field::StrainStep> strain_;
+  LocalInput<field::SpecificVolumes> volumes_;
+  LocalInput<field::EffectiveDeviator> effective_;
+  LocalInput<field::EquivalentStress> q_;
+  LocalInput<field::PlasticIncrement> increment_;
+  LocalInput<field::DamageGrowth> growth_;
+  LocalOptional<field::SnapBack> snap_back_;
+  LocalOutput<field::SpecificWork> work_;
+  LocalOutput<field::ShearModulus> shear_;
+  LocalOutput<field::PlasticWork> plastic_work_;
+  LocalOutput<field::CarriedLoss> carried_loss_;
+};
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/materials/assembly.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "krater/materials/catalogue.hpp"
+
+namespace krater {
+
+namespace {
+
+const LawInfo& info(const PlannedLaw& law) {
+  return catalogue().at(static_cast<std::size_t>(law.law));
+}
+
+struct Assembler {
+  const StageFactory& factory;
+  const MaterialPlan& plan;
+  Layout& layout;
+  std::vector<NamedStage> stages;
+
+  void add(std::string name, Stage* stage) {
+    if (stage == nullptr) throw std::logic_error("no stage was made for " + name);
+    stages.push_back({std::move(name), std::unique_ptr<const Stage>{stage}});
+  }
+
+  void add_law(const PlannedLaw& law) {
+    if (law.law < 0) return;
+    add(info(law).family + ": " + info(law).name,
+        factory.make(law.law, law.values, plan.constants, layout));
+  }
+
+  void add_part(Part part, const PlannedLaw& law, const std::string& name) {
+    add(name, factory.part({.part = part,
+                            .law = law.law,
+                            .values = law.values,
+                            .constants = plan.constants,
+                            .rate = plan.rate,
+                            .degrade = plan.degrade},
+                           layout));
+  }
+
+  void add_split_deviator() {
+    const bool yields = info(plan.strength).yields, damaged = plan.damage.law >= 0;
+    const std::string strength = "strength: " + info(plan.strength).name,
+                      damage = damaged ? "damage: " + info(plan.damage).name : "";
+    add_part(Part::trial, plan.damage,
+             std::string{"rate: "} + kRateNames[static_cast<int>(plan.rate)]);
+    if (damaged && plan.coupling == Coupling::rate) {
+      add_part(Part::flow_stress, plan.strength, strength + " (flow stress)");
+      add_part(Part::growth, plan.damage, damage);
+      add_part(Part::rate_return, plan.strength, strength);
+    } else {
+      if (yields) add_part(Part::plastic_return, plan.strength, strength);
+      if (damaged) add_part(Part::growth, plan.damage, damage);
+    }
+    add_part(Part::carried, plan.damage, "carried stress");
+  }
+};
+
+}  // namespace
+
+std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialPlan& plan,
+                                    Layout& layout) {
+  Assembler all{factory, plan, layout, {}};
+  const bool split = plan.damage.law >= 0 || plan.rate != Rate::truesdell;
+  // Who needs F must have declared it before the kinematics stage looks for it.
+  const bool whole_stress = plan.strength.law >= 0 && info(plan.strength).whole_stress;
+  if (whole_stress || plan.rate == Rate::green_naghdi)
+    layout.state<field::DeformationGradient>(0.0, "kinematics");
+  all.add("kinematics", factory.kinematics(layout));
+  all.add_law(plan.viscosity);
+  if (split && plan.strength.law >= 0) {
+    all.add_split_deviator();
+  } else {
+    all.add_law(plan.strength);
+  }
+  if (plan.eos.law >= 0 && (plan.damage.law >= 0 || std::isfinite(plan.spall_strength))) {
+    all.add("eos: " + info(plan.eos).name + ", carried",
+            factory.carrying_eos(plan.eos.law, plan.eos.values, plan.constants, plan.spall_strength,
+                                 layout));
+  } else {
+    all.add_law(plan.eos);
+  }
+  all.add_law(plan.heating);
+  all.add("signal speed", factory.signal_speed(plan.q_lin, plan.q_quad, layout));
+  return std::move(all.stages);
+}
+
+}  // namespace krater

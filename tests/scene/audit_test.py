@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The audit of a short Taylor impact: energy residual, energy error, mass, momentum; the price of each scheme."""
+
+from scene_support import Folder, check, finish, history, run, summary
+
+VALUES = ["time.end=20 us", "grid.cell=0.762 mm", "output.frames=0"]
+# Scheme -> settings, greatest energy error (a fraction, measured, with a margin), greatest gap of axial momentum.
+CLOSED = 1e-10
+SCHEMES = {
+    "tflip (default)": ([], 0.01, CLOSED),
+    "flip": (["method.transfer=flip"], 0.03, CLOSED),
+    "apic": (["method.transfer=apic"], 0.05, CLOSED),
+    "xpic 2": (["method.transfer={xpic: {order: 2}}"], 0.10, CLOSED),
+    "xpic 4": (["method.transfer={xpic: {order: 4}}"], 0.25, CLOSED),
+    "flip, musl": (["method.transfer=flip", "method.update=musl"], 0.02, CLOSED),
+    "flip, usf": (["method.transfer=flip", "method.update=usf"], 0.02, CLOSED),
+    "apic, musl": (["method.transfer=apic", "method.update=musl"], 0.05, CLOSED),
+    "flip, no cell averages": (["method.transfer=flip", "method.cell_averaging=false"], 0.03, CLOSED),
+}
+
+
+def momentum_gap(rows, axis, scale):
+    change = rows[f"momentum_{axis}"] - rows[f"momentum_{axis}"][0]
+    return float(max(abs(change - rows[f"wall_impulse_{axis}"]))) / scale
+
+
+def audit(name, values, most, momentum):
+    done = run(name, *values)
+    if not check(done.returncode == 0, f"{name} runs", done.stderr.strip().splitlines()[-1]):
+        return
+    rows, a = history(name), summary(name)["audit"]
+    scale = abs(rows["momentum_z"][0])
+    residual = float(max(abs(rows["energy_residual"]))) / a["initial_energy"]
+    mass = float(max(abs(rows["mass"] / rows["mass"][0] - 1)))
+    gap = momentum_gap(rows, "z", scale)
+    print(f"      {name:<24} energy error {100 * a['energy_error_fraction']:+7.3f} %   residual {residual:.1e}   "
+          f"mass {mass:.1e}   axial momentum {gap:.1e}")
+    check(residual < 1e-10, f"{name}: energy residual at round-off", f"{residual:.1e}")
+    check(abs(a["energy_error_fraction"]) < most, f"{name}: energy error below {100 * most:g} %")
+    check(mass < 1e-12 and a["events"]["removed_points"] == 0, f"{name}: mass is exact", f"{mass:.1e}")
+    if momentum is not None:
+        check(gap < momentum, f"{name}: momentum changes by the wall's impulse, within {momentum:g}", f"{gap:.1e}")
+
+
+with Folder():
+    for scheme, (settings, most, momentum) in SCHEMES.items():
+        audit(scheme, VALUES + settings, most, momentum)
+    space = ["frame=3d", "grid.cell=0.762 mm", "time.end=3 us", "output.frames=0", "method.transfer=flip"]
+    audit("3d flip", space, 0.03, CLOSED)
+    across = history("3d flip")
+    check(all(momentum_gap(across, axis, abs(across["momentum_z"][0])) < 1e-10 for axis in "xy"),
+          "3d flip: momentum across the axis stays zero")
+finish()

@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every scene of inputs/ in every frame it supports: checked, stepped for a short time, results sound."""
+
+from scene_support import ROOT, Folder, check, finish, krater, results_errors, run, summary
+
+# Frames a scene supports; in the others it must be refused, and say why. 3d runs take a coarser cell.
+SCENES = {
+    "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
+    "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
+    "taylor_copper": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
+    "two_discs": {"frames": ("plane_strain",), "end": "0.1", "coarse": None},
+}
+FRAMES = ("axisymmetric", "plane_strain", "3d")
+
+
+def step(path, scene, frame):
+    values = [f"frame={frame}", f"time.end={scene['end']}"]
+    if frame == "3d":
+        values.append(f"grid.cell={scene['coarse']}")
+    output = f"{path.stem}_{frame}"
+    done = run(output, *values, scene=path, threads=2)
+    if not check(done.returncode == 0, f"{output} runs", done.stderr.strip().splitlines()[-1]):
+        return
+    errors = results_errors(output)
+    check(not errors, f"{output}: results are sound", errors)
+    s = summary(output)
+    check(s["status"] == "done" and s["steps"] > 3 and abs(s["audit"]["energy_residual_fraction"]) < 1e-10,
+          f"{output}: done", f"{s['points']} points, {s['steps']} steps, "
+          f"energy residual {s['audit']['energy_residual_fraction']:.1e}, "
+          f"error {100 * s['audit']['energy_error_fraction']:.2f} %")
+
+
+with Folder():
+    files = sorted((ROOT / "inputs").glob("*.yaml"))
+    check(len(files) >= 4, f"{len(files)} scenes in inputs/")
+    for path in files:
+        if not check(path.stem in SCENES, f"{path.name} is listed in this test"):
+            continue
+        own = krater("check", path)
+        check(own.returncode == 0 and "estimate:" in own.stdout and not own.stderr, f"check {path.name}")
+        for frame in FRAMES:
+            if frame in SCENES[path.stem]["frames"]:
+                done = krater("check", path, "--set", f"frame={frame}")
+                check(done.returncode == 0, f"check {path.name} in {frame}", done.stderr)
+                step(path, SCENES[path.stem], frame)
+            else:
+                done = krater("check", path, "--set", f"frame={frame}")
+                check(done.returncode == 2 and path.name + ":" in done.stderr,
+                      f"check {path.name} in {frame} is refused", done.stderr.splitlines()[0])
+finish()
