@@ -145,9 +145,7 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("manufactured bar: splines reach their noise floor") {
-    // With 2 points per cell at places other than those of the start the quadrature of a spline is
-    // wrong by a share that refinement does not change: the error of the force grows like 1/h
-    // (numerics A1).
+    // Numerics A1: an error that falls to about 0.5 % of G and then rises about like 1/h.
     for (const bool flip : {true, false}) {
       const Study s = study({8, 16, 32, 64, 128}, 0.05, shape("quadratic_bspline", flip));
       CHECK(s.order[0] > 1.8);
