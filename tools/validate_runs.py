@@ -101,6 +101,12 @@ class Study:
         environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
         begin = time.monotonic()
         done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+        for _ in range(3):  # interrupted by someone else's signal: the same bits from the checkpoint
+            checkpoint = os.path.join(folder, "checkpoint.h5")
+            if done.returncode != 4 or not os.path.exists(checkpoint):
+                break
+            done = subprocess.run([*command, "--restart", checkpoint], capture_output=True, text=True,
+                                  env=environment, check=False)
         print(f"  {label}: {time.monotonic() - begin:.1f} s" +
               (f", exit code {done.returncode}" if done.returncode else ""), flush=True)
         if done.returncode:
@@ -144,7 +150,8 @@ class Study:
     def write(self, title):
         program = subprocess.run([self.krater, "--version"], capture_output=True, text=True,
                                  check=False).stdout.strip().replace("\n", ", ")
-        text = [f"# {title}", "", f"{datetime.date.today()}, {program}, {machine()}. Made by `tools/validate "
+        text = [f"# {title}", "", f"{datetime.date.today()}, {program}, {machine()}, load average "
+                f"{os.getloadavg()[2]:.0f} (wall times are those of such a machine). Made by `tools/validate "
                 f"{self.name}`; do not edit.", ""] + self.lines
         if self.left_out:
             text += [f"Left out for the budget of {self.budget:.0f} s: {', '.join(self.left_out)}.", ""]
