@@ -12,11 +12,11 @@
 // centre is exact. Its r, in the axisymmetric frame, is the centroid of the *area*, which by Pappus
 // is V / (2 pi A), and not the centroid of the volume, <r^2> / <r>. In a uniform state the nodal
 // force -sum_p V_p (s dS/dr + s S/r_p) must equal -2 pi s int d(r S)/dr dA: with V_p / r_p = 2 pi
-// A_p the sum is the midpoint rule of that integrand, the hoop force sum V_p s_tt / r_p is exact,
-// and A_p follows from the stored V_p and r_p. The volume's centroid makes V_p / r_p too small by
-// s^2 / (12 r^2): 25 % in the column at the axis (r_p = 2/3 s instead of 1/2 s), where a rod under
-// uniform pressure would not be in balance. Its one merit, an exact int r dm, is not a conserved
-// quantity of this frame.
+// A_p the sum is the midpoint rule of that integrand, the total hoop force sum V_p s_tt / r_p is
+// exact, and A_p follows from the stored V_p and r_p. The volume's centroid makes V_p / r_p too
+// small by s^2 / (12 r^2): 25 % in the column at the axis (r_p = 2/3 s instead of 1/2 s), where a
+// rod under uniform pressure would not be in balance. Its one merit, an exact int r dm, is not a
+// conserved quantity of this frame.
 //
 // Slivers (cells less than half full) are not points of their own: see `fill`.
 #pragma once
