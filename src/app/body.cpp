@@ -23,6 +23,13 @@ bool wants(const Scene& scene, const FieldInfo& field) {
 
 }  // namespace
 
+bool has_wall(const Scene& scene) {
+  for (int a = 0; a < dimension(scene.frame); ++a)
+    for (const Boundary& side : scene.grid.boundary[static_cast<std::size_t>(a)])
+      if (side.kind == BoundaryKind::wall) return true;
+  return false;
+}
+
 Box domain_box(const Scene& scene) { return {scene.grid.min, scene.grid.max}; }
 
 Body::Body(const Scene& scene, int index, const StageFactory& factory)
@@ -48,9 +55,14 @@ void Body::declare_method_columns(const Scene& scene) {
   const MethodOptions& m = scene.method;
   if (carries_affine(m.transfer)) layout_.state<field::AffineVelocity>(0, kMethod);
   if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
-  if (m.update == Update::musl || m.transfer == Transfer::xpic)
+  if (m.update == Update::musl || m.transfer == Transfer::xpic || m.reference != Reference::current)
     layout_.state<field::GridVelocity>(0, kMethod);
   if (m.cell_averaging) layout_.state<field::ShockIndicator>(0, kMethod);
+  if (m.reference != Reference::current) {
+    layout_.state<field::ConfigurationPosition>(0, kMethod);
+    layout_.state<field::ConfigurationMap>(0, kMethod);
+    if (has_wall(scene)) layout_.state<field::BodyAcceleration>(0, kMethod);
+  }
   if (scene.body_force) {
     layout_.state<field::BodyAcceleration>(0, kMethod);
     layout_.state<field::ReferencePosition>(0, kMethod);
@@ -98,6 +110,9 @@ BodyKernelData Body::kernel_data() const {
   PointColumns& c = data.columns;
   c.stride = layout_.stride();
   c.local_stride = layout_.local_stride();
+  c.grid_position = state(field::ConfigurationPosition::info);
+  c.map = state(field::ConfigurationMap::info);
+  if (c.grid_position < 0) c.grid_position = state(field::Position::info);
   c.position = state(field::Position::info), c.velocity = state(field::Velocity::info);
   c.mass = state(field::Mass::info), c.density = state(field::Density::info);
   c.affine = state(field::AffineVelocity::info), c.stress = state(field::DeviatoricStress::info);
@@ -160,7 +175,10 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
     const auto i = static_cast<std::size_t>(a);
     set(field::Position::info, a, seed.x[i]);
     set(field::ReferencePosition::info, a, seed.x[i]);
+    set(field::ConfigurationPosition::info, a, seed.x[i]);
+    set(field::ConfigurationMap::info, (dim + 1) * a, 1.0);
     set(field::Velocity::info, a, velocity[i]);
+    set(field::GridVelocity::info, a, velocity[i]);
     set(field::HalfWidth::info, a, seed.half_width[i]);
   }
   if (options_->velocity && carries_affine(scene.method.transfer)) {

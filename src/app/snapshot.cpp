@@ -220,6 +220,7 @@ Json audit_json(const Simulation& sim) {
   events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));
   events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
   events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
+  events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
   events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
   events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
   j["events"] = events;

@@ -47,14 +47,17 @@ int BlockGrid::find_patch(const BlockKey& key, int body) const {
              : -1;
 }
 
-int BlockGrid::find_node_block(const BlockKey& key) const {
+int BlockGrid::find_node_block(const BlockKey& key, int field) const {
   const auto at = std::lower_bound(node_blocks.begin(), node_blocks.end(), key,
-                                   [](const NodeBlock& n, const BlockKey& k) { return n.key < k; });
-  return at != node_blocks.end() && at->key == key ? static_cast<int>(at - node_blocks.begin())
-                                                   : -1;
+                                   [field](const NodeBlock& n, const BlockKey& k) {
+                                     return n.key != k ? n.key < k : n.field < field;
+                                   });
+  return at != node_blocks.end() && at->key == key && at->field == field
+             ? static_cast<int>(at - node_blocks.begin())
+             : -1;
 }
 
-double* BlockGrid::find_node(const std::array<int, 3>& storage_index) const {
+double* BlockGrid::find_node(const std::array<int, 3>& storage_index, int field) const {
   const int edge = block_edge(geometry_.dimension);
   BlockKey key;
   int local = 0;
@@ -64,7 +67,7 @@ double* BlockGrid::find_node(const std::array<int, 3>& storage_index) const {
     key.i[static_cast<std::size_t>(a)] = block;
     local = local * edge + (i - block * edge);
   }
-  const int n = find_node_block(key);
+  const int n = find_node_block(key, field);
   return n < 0 ? nullptr : node_blocks[static_cast<std::size_t>(n)].nodes + kNodeDoubles * local;
 }
 
@@ -72,6 +75,10 @@ void BlockGrid::rebuild(bool drop_empty) {
   if (drop_empty) std::erase_if(patches, [](const Patch& p) { return p.count == 0; });
   if (!std::is_sorted(patches.begin(), patches.end(), before))
     std::sort(patches.begin(), patches.end(), before);
+  for (Patch& p : patches)
+    p.field = static_cast<std::size_t>(p.body) < field_of_body_.size()
+                  ? field_of_body_[static_cast<std::size_t>(p.body)]
+                  : 0;
   make_node_blocks();
   link_patches();
 }
@@ -80,22 +87,27 @@ void BlockGrid::make_node_blocks() {
   const int dimension = geometry_.dimension, corners = corner_count(dimension);
   struct Overlap {
     BlockKey key;
+    int field;
     TileRef tile;
   };
   std::vector<Overlap> overlaps;
   overlaps.reserve(patches.size() * static_cast<std::size_t>(corners));
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (int c = 0; c < corners; ++c)
-      overlaps.push_back({at_corner(patches[p].key, c, 1, dimension), {static_cast<int>(p), c}});
-  std::stable_sort(overlaps.begin(), overlaps.end(),
-                   [](const Overlap& a, const Overlap& b) { return a.key < b.key; });
+      overlaps.push_back(
+          {at_corner(patches[p].key, c, 1, dimension), patches[p].field, {static_cast<int>(p), c}});
+  std::stable_sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) {
+    return a.key != b.key ? a.key < b.key : a.field < b.field;
+  });
 
   node_blocks.clear();
   tile_refs.clear();
   for (const Overlap& o : overlaps) {
-    if (node_blocks.empty() || node_blocks.back().key != o.key) {
+    if (node_blocks.empty() || node_blocks.back().key != o.key ||
+        node_blocks.back().field != o.field) {
       node_blocks.emplace_back();
       node_blocks.back().key = o.key;
+      node_blocks.back().field = o.field;
       node_blocks.back().first_tile = static_cast<int>(tile_refs.size());
     }
     tile_refs.push_back(o.tile);
@@ -114,7 +126,7 @@ void BlockGrid::link_patches() {
     patch.beta.reserve(kBlockNodes);
     for (int c = 0; c < corner_count(dimension); ++c)
       patch.node_blocks[static_cast<std::size_t>(c)] =
-          find_node_block(at_corner(patch.key, c, 1, dimension));
+          find_node_block(at_corner(patch.key, c, 1, dimension), patch.field);
     for (int s = 0; s < neighbour_count(dimension); ++s)
       patch.neighbours[static_cast<std::size_t>(s)] =
           find_patch(shifted(patch.key, s, dimension), patch.body);

@@ -54,6 +54,21 @@ void check_method(Reading& reading) {
   }
 }
 
+/// A fixed reference has one sweep, and no grid that bodies share.
+void check_reference(Reading& reading) {
+  const MethodOptions& method = reading.scene.method;
+  if (method.reference == Reference::current) return;
+  if (method.update != Update::usl || method.transfer == Transfer::xpic)
+    fail("method.reference",
+         "only reference: current works with update musl or usf or with transfer xpic; use update: "
+         "usl and transfer tflip, flip or apic",
+         reading);
+  if (reading.scene.bodies.size() > 1)
+    reading.scene.notes.push_back(
+        "method.reference: every body has a reference grid of its own: bodies pass through each "
+        "other; use reference: current where they should meet");
+}
+
 /// A body that sticks out of the domain loses what is outside: meant at a plane of symmetry, else
 /// worth saying.
 void check_sides(const BodyOptions& body, Reading& reading) {
@@ -106,6 +121,7 @@ double check_body(const BodyOptions& body, Reading& reading) {
 void check_scene(Reading& reading) {
   Scene& scene = reading.scene;
   check_method(reading);
+  check_reference(reading);
   double points = 0;
   std::vector<bool> used(scene.materials.size(), false);
   for (const BodyOptions& body : scene.bodies) {

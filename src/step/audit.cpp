@@ -29,6 +29,13 @@ void Audit::book_events(const Ledger& ledger) {
   spalls += ledger.spalls;
 }
 
+void Audit::book_point_walls(const std::array<double, 3>& force, double dt, bool alone) {
+  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += force[a] * dt;
+  if (!alone) return;
+  wall_work += external_work;
+  external_work = 0;
+}
+
 void Audit::book_removed(double kinetic_gone, double internal_gone, double mass, double count,
                          const std::array<double, 3>& momentum, double reflected) {
   kinetic -= kinetic_gone;

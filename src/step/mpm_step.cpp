@@ -49,9 +49,12 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
       kernels_{kernels},
       plain_{plain},
       bodies_{bodies},
-      velocity_from_kept_{bodies} {
+      velocity_from_kept_{bodies},
+      position_as_velocity_{bodies} {
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
+  for (BodyKernelData& body : position_as_velocity_)
+    body.columns.velocity = body.columns.position, body.columns.affine = body.columns.map;
   zeros_.reserve(9 * kLanes);
   node_settings_.cell_volume = std::pow(grid.geometry().h, grid.geometry().dimension);
 }
@@ -75,6 +78,7 @@ double MpmStep::advance(double dt) {
 
 double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
+  if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
   BoundaryWork wall = boundary_.constrain();
@@ -187,6 +191,27 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   });
   lap(Phase::scatter);
   throw_faults();
+}
+
+// Where the material of the nodes at walls is: x_I = sum S m (x_p + F_p (X_I - X_p)) / m_I, exact
+// for a linear map. Only on a fixed reference; elsewhere a node is where it is.
+void MpmStep::measure_gaps() {
+  const int corners = corner_count(grid_.geometry().dimension);
+  const SweepSettings s = settings(0);
+  const auto at_wall = [this](int n) {
+    return grid_.node_blocks[static_cast<std::size_t>(n)].at_wall;
+  };
+  for_each(grid_.patches.size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches[p];
+    if (std::none_of(patch.node_blocks.begin(), patch.node_blocks.begin() + corners, at_wall))
+      return;
+    plain_.scatter(patch, position_as_velocity_[static_cast<unsigned>(patch.body)], s, scratch());
+    patch.tile_current = false;
+  });
+  for (const std::size_t n : boundary_blocks_)
+    if (grid_.node_blocks[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks[n]);
+  boundary_.note_gaps();
+  lap(Phase::boundary);
 }
 
 MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
@@ -307,7 +332,7 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
   const std::size_t size =
       static_cast<std::size_t>(patch.groups()) * static_cast<std::size_t>(body.columns.stride);
   const std::uint64_t before = still ? hash_of(patch.records.data(), size) : 0;
-  if (part != GatherPart::velocity_move) patch.result.max_rate = 0;
+  if (part != GatherPart::velocity_move) patch.result.max_rate = patch.result.stretch = 0;
   kernels_.gather(patch, grid_, body, s, w, part);
   patch.settled = still && hash_of(patch.records.data(), size) == before;
 }
@@ -350,10 +375,27 @@ void MpmStep::throw_faults() const {
       throw StepFault{static_cast<int>(p), grid_.patches[p].result.fault};
 }
 
+// Returns true when the topology changed.
+bool MpmStep::renew_references() {
+  bool renewed = false;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (largest_strain(grid_, static_cast<int>(b)) <= method_.refresh_strain) continue;
+    double change = 0;
+    const Removed r =
+        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, change);
+    audit_.kinetic += change;
+    audit_.transfer_out -= change;
+    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
+    audit_.new_references += 1;
+    renewed = true;
+  }
+  return renewed;
+}
+
 void MpmStep::migrate() {
   for (const Removed& r : removed_)
     audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
-  if (deliver(grid_, bodies_))
+  if (method_.reference == Reference::adaptive ? renew_references() : deliver(grid_, bodies_))
     relink();
   else
     provide_memory();  // patches may have grown

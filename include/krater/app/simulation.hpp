@@ -68,6 +68,8 @@ class Simulation {
   void place_points();
   void choose_first_step();
   void apply_body_force();
+  bool walls_act_on_points() const;
+  std::array<double, 3> apply_point_walls(double dt);  ///< force on the points [N]
   double next_step(double until);
   std::string describe_limit() const;
   std::string describe_fault(const StepFault& fault) const;

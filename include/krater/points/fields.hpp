@@ -62,6 +62,10 @@ KRATER_FIELD(DeformationGradient, "deformation_gradient", "1", 9,
              "F, row-major, from the start of the run");
 KRATER_FIELD(ReferencePosition, "reference_position", "m", kPerAxis,
              "position at the start of the run");
+KRATER_FIELD(ConfigurationPosition, "configuration_position", "m", kPerAxis,
+             "position in the reference configuration that carries the weights");
+KRATER_FIELD(ConfigurationMap, "configuration_map", "1", kPerAxisSquared,
+             "F from the reference configuration to now, over grid axes");
 KRATER_FIELD(BodyAcceleration, "body_acceleration", "m/s^2", kPerAxis, "body force per mass");
 KRATER_FIELD(GridVelocity, "grid_velocity", "m/s", kPerAxis,
              "interpolated grid velocity of the step (musl, xpic)");

@@ -25,6 +25,7 @@ struct Audit {
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
   double failures = 0, snap_backs = 0, spalls = 0;                                  ///< events
+  double new_references = 0;                                                        ///< events
   double wall_columns = 0;   ///< columns in contact in the last step
   double step_external = 0;  ///< work of body forces in the step under way [J]
 
@@ -39,6 +40,9 @@ struct Audit {
   void book_step(const StepEnergies& e, double wall, double correction,
                  const std::array<double, 3>& impulse, int columns);
   void book_events(const Ledger& ledger);
+  /// Walls that acted as body forces on points (fixed reference) during dt; `alone`: no other body
+  /// force did, so that their work can be told apart.
+  void book_point_walls(const std::array<double, 3>& force, double dt, bool alone);
   /// Energy and momentum that left with removed points.
   void book_removed(double kinetic_gone, double internal_gone, double mass, double count,
                     const std::array<double, 3>& momentum, double reflected);

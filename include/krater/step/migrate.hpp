@@ -28,6 +28,12 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
 /// changed (relink!).
 bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
 
+/// Points of `body` to the blocks of their present positions, however far that is, and out of the
+/// domain through its open sides; for a new reference configuration. Order: by id-preserving old
+/// order, so the bits do not depend on threads. Relink afterwards.
+Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
+                     const PointColumns& columns);
+
 /// Make the padding lanes of the last group copies of the last point with mass 0.
 void pad(Patch& patch, int stride, int mass_offset);
 

@@ -16,6 +16,7 @@
 #include "krater/step/boundary.hpp"
 #include "krater/step/kernels.hpp"
 #include "krater/step/migrate.hpp"
+#include "krater/step/reference.hpp"
 
 namespace krater {
 
@@ -33,7 +34,8 @@ struct StepFault {
 class MpmStep {
  public:
   /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
-  /// the same kernels without the affine part, for projections of point velocities alone.
+  /// the same kernels without the affine part, for projections of point velocities alone; on a
+  /// fixed reference with it, for the present positions of nodes.
   MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
           const Kernels& kernels, const Kernels& plain, const std::vector<BodyKernelData>& bodies);
 
@@ -72,6 +74,8 @@ class MpmStep {
   void provide_memory();
   void throw_faults() const;
   void migrate();
+  bool renew_references();
+  void measure_gaps();
   SweepSettings settings(double dt) const;
   SweepScratch scratch();
 
@@ -86,6 +90,7 @@ class MpmStep {
   const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;
   std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
+  std::vector<BodyKernelData> position_as_velocity_;  ///< fixed reference: x and F as v and L
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
 
   Audit audit_;
