@@ -64,7 +64,9 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       level_{level},
       geometry_{make_geometry(scene)},
       grid_{geometry_},
-      boundary_{geometry_, scene.grid.boundary, scene.method.reference != Reference::current} {
+      boundary_{geometry_, scene.grid.boundary, scene.method.reference != Reference::current},
+      contact_{geometry_, scene.grid.boundary, scene.frame == Frame::axisymmetric,
+               scene.method.shape == Shape::linear, scene.contact} {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     bodies_.push_back(std::make_unique<Body>(scene, static_cast<int>(b), stage_factory(level)));
     kernel_data_.push_back(bodies_.back()->kernel_data());
@@ -77,13 +79,13 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   kernels_.reset(make(choice));
   choice.affine = choice.fixed_reference;
   plain_kernels_.reset(make(choice));
-  if (choice.fixed_reference) {  // a reference grid for each body
+  if (choice.fixed_reference || scene.contact.active) {  // a velocity field for each body
     std::vector<int> fields(bodies_.size());
     std::iota(fields.begin(), fields.end(), 0);
     grid_.set_fields(std::move(fields));
   }
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, *kernels_, *plain_kernels_,
-                                    kernel_data_);
+  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, contact_, *kernels_,
+                                    *plain_kernels_, kernel_data_);
   place_points();
   choose_first_step();
   const Totals start = totals();

@@ -198,6 +198,8 @@ Json audit_json(const Simulation& sim) {
   j["internal_work"] = Json::of(a.internal_work);
   j["external_work"] = Json::of(a.external_work);
   j["wall_work"] = Json::of(a.wall_work);
+  j["contact_work"] = Json::of(a.contact_work);
+  j["friction_work"] = Json::of(a.friction_work);
   j["transfer_in"] = Json::of(a.transfer_in);
   j["transfer_out"] = Json::of(a.transfer_out);
   j["time_centring"] = Json::of(a.time_centring);

@@ -3,18 +3,17 @@
 
 namespace krater {
 
-void Audit::book_step(const StepEnergies& e, double wall, double correction,
-                      const std::array<double, 3>& impulse, int columns) {
+void Audit::book_step(const StepEnergies& e, const Constraint& walls, const Constraint& contact) {
+  const double correction = walls.correction + contact.correction;
   const double work =
       e.grid_after - e.grid_before + correction - step_external;  // of the internal forces
   transfer_in += e.kinetic - e.grid_before;
   internal_work += work;
   external_work += step_external;
-  wall_work += wall - correction;
-  transfer_out += e.grid_after + wall - kinetic;
+  wall_work += walls.work - walls.correction;
+  contact_work += contact.work - contact.correction;
+  transfer_out += e.grid_after + walls.work + contact.work - kinetic;
   time_centring += -work - (internal - e.internal);
-  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += impulse[a];
-  wall_columns = columns;
   step_external = 0;
 }
 

@@ -41,11 +41,12 @@ double alpha_of(const MethodOptions& m, double tflip) {
 }  // namespace
 
 MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
-                 const Kernels& kernels, const Kernels& plain,
+                 ContactSet& contact, const Kernels& kernels, const Kernels& plain,
                  const std::vector<BodyKernelData>& bodies)
     : method_{method},
       grid_{grid},
       boundary_{boundary},
+      contact_{contact},
       kernels_{kernels},
       plain_{plain},
       bodies_{bodies},
@@ -76,22 +77,38 @@ double MpmStep::advance(double dt) {
   return dt;
 }
 
+MpmStep::Constraints MpmStep::constrain() {
+  Constraints out;
+  if (contact_.active()) out.contact = contact_.apply(grid_);
+  lap(Phase::contact);
+  out.walls = boundary_.constrain();
+  boundary_.mirror();
+  lap(Phase::boundary);
+  return out;
+}
+
+void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
+  audit_.book_step(energies, {c.walls.work, c.walls.force_correction},
+                   {c.contact.work, c.contact.force_correction});
+  audit_.friction_work += c.contact.friction;
+  audit_.contact_pairs = c.contact.nodes;
+  for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
+  audit_.wall_columns = c.walls.columns_in_contact;
+}
+
 double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  BoundaryWork wall = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  Constraints constraints = constrain();
   if (method_.transfer == Transfer::xpic) {
     const std::array<double, 3> impulse = filter_velocity();
-    for (std::size_t a = 0; a < 3; ++a) wall.impulse[a] += impulse[a];
+    for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
   }
   grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
                     dt);
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
-                   wall.impulse, wall.columns_in_contact);
+  book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
 }
 
@@ -99,9 +116,7 @@ double MpmStep::step_musl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  const BoundaryWork wall = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  const Constraints constraints = constrain();
   grid_to_particles(GatherPart::velocity_only, dt);
 
   // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
@@ -109,15 +124,14 @@ double MpmStep::step_musl(double dt) {
   // need their L.
   particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
-  const BoundaryWork wall_again = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  const Constraints repeated = constrain();
   grid_to_particles(GatherPart::strain_move, dt);
-  audit_.transfer_out += grid.after + wall.work - again.before;  // the detour over the points
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
-                   wall.impulse, wall.columns_in_contact);
-  audit_.transfer_out += again.after - (grid.after + wall.work) + wall_again.work;
-  audit_.wall_work += wall_again.work;
+  audit_.transfer_out +=
+      grid.after + constraints.work() - again.before;  // the detour over the points
+  book({kinetic, internal, grid.before, grid.after}, constraints);
+  audit_.transfer_out += again.after - (grid.after + constraints.work()) + repeated.work();
+  audit_.wall_work += repeated.walls.work;
+  audit_.contact_work += repeated.contact.work;
   return dt;
 }
 
@@ -125,19 +139,14 @@ double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   momentum(dt, 0);
-  boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  constrain();
   grid_to_particles(GatherPart::strain_only, dt);
 
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  const BoundaryWork wall = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  const Constraints constraints = constrain();
   grid_to_particles(GatherPart::velocity_move, dt);
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
-                   wall.impulse, wall.columns_in_contact);
+  book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
 }
 
@@ -158,6 +167,7 @@ SweepScratch MpmStep::scratch() {
 
 void MpmStep::relink() {
   boundary_.relink(grid_);
+  contact_.relink(grid_);
   boundary_blocks_.clear();
   for (std::size_t n = 0; n < grid_.node_blocks.size(); ++n)
     if (grid_.node_blocks[n].at_boundary) boundary_blocks_.push_back(n);
@@ -191,27 +201,6 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   });
   lap(Phase::scatter);
   throw_faults();
-}
-
-// Where the material of the nodes at walls is: x_I = sum S m (x_p + F_p (X_I - X_p)) / m_I, exact
-// for a linear map. Only on a fixed reference; elsewhere a node is where it is.
-void MpmStep::measure_gaps() {
-  const int corners = corner_count(grid_.geometry().dimension);
-  const SweepSettings s = settings(0);
-  const auto at_wall = [this](int n) {
-    return grid_.node_blocks[static_cast<std::size_t>(n)].at_wall;
-  };
-  for_each(grid_.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid_.patches[p];
-    if (std::none_of(patch.node_blocks.begin(), patch.node_blocks.begin() + corners, at_wall))
-      return;
-    plain_.scatter(patch, position_as_velocity_[static_cast<unsigned>(patch.body)], s, scratch());
-    patch.tile_current = false;
-  });
-  for (const std::size_t n : boundary_blocks_)
-    if (grid_.node_blocks[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks[n]);
-  boundary_.note_gaps();
-  lap(Phase::boundary);
 }
 
 MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
@@ -373,23 +362,6 @@ void MpmStep::throw_faults() const {
   for (std::size_t p = 0; p < grid_.patches.size(); ++p)
     if (grid_.patches[p].result.fault.kind != FaultKind::none)
       throw StepFault{static_cast<int>(p), grid_.patches[p].result.fault};
-}
-
-// Returns true when the topology changed.
-bool MpmStep::renew_references() {
-  bool renewed = false;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (largest_strain(grid_, static_cast<int>(b)) <= method_.refresh_strain) continue;
-    double change = 0;
-    const Removed r =
-        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, change);
-    audit_.kinetic += change;
-    audit_.transfer_out -= change;
-    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
-    audit_.new_references += 1;
-    renewed = true;
-  }
-  return renewed;
 }
 
 void MpmStep::migrate() {

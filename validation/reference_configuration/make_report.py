@@ -36,7 +36,7 @@ def row(name, run):
     seconds = sum(run.summary["machine"]["seconds"].values())
     points = run.summary["points"] * run.summary["steps"]
     return [name, run.summary["steps"], *(f"{1e3 * run.measure(n):.3f}" for n in NAMES), f"{widest(run):.3f}",
-            f"{run.error:.2f}", run.summary["events"]["new_references"], f"{seconds:.1f} ({1e9 * seconds / points:.0f})"]
+            f"{run.error:.2f}", run.summary['audit']['events']['new_references'], f"{seconds:.1f} ({1e9 * seconds / points:.0f})"]
 
 
 def picture(study, runs):

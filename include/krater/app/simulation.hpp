@@ -82,6 +82,7 @@ class Simulation {
   std::vector<BodyKernelData> kernel_data_;
   BlockGrid grid_;
   BoundarySet boundary_;
+  ContactSet contact_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
   double time_ = 0, dt_ = 0, dt_free_ = 0,

@@ -95,6 +95,7 @@ struct Scene {
   GridOptions grid;
   TimeOptions time;
   MethodOptions method;
+  ContactOptions contact;
   std::vector<MaterialOptions> materials;
   std::vector<BodyOptions> bodies;
   std::shared_ptr<const FieldFunction> body_force;  ///< acceleration [m/s^2]; null: none

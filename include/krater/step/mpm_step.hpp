@@ -2,8 +2,8 @@
 #pragma once
 /// \file step/mpm_step.hpp
 /// One time step of the Material Point Method (theory 2-4, 11, 12):
-///   particles_to_grid -> fold symmetry planes -> momentum -> walls -> grid_to_particles (+
-///   stresses) -> migrate.
+///   particles_to_grid -> fold symmetry planes -> momentum -> contact -> walls ->
+///   grid_to_particles (+ stresses) -> migrate.
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
 /// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
 /// (Hammerquist & Nairn 2017) before the gather.
@@ -14,6 +14,7 @@
 #include "krater/core/stopwatch.hpp"
 #include "krater/step/audit.hpp"
 #include "krater/step/boundary.hpp"
+#include "krater/step/contact.hpp"
 #include "krater/step/kernels.hpp"
 #include "krater/step/migrate.hpp"
 #include "krater/step/reference.hpp"
@@ -21,9 +22,9 @@
 namespace krater {
 
 /// Phases of a step, for the account of its cost.
-enum class Phase : std::size_t { scatter, nodes, boundary, gather, migrate };
-inline constexpr std::array<const char*, 5> phase_names{"scatter", "nodes", "boundary",
-                                                        "gather_and_stress", "migrate"};
+enum class Phase : std::size_t { scatter, nodes, contact, boundary, gather, migrate };
+inline constexpr std::array<const char*, 6> phase_names{
+    "scatter", "nodes", "contact", "boundary", "gather_and_stress", "migrate"};
 
 /// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
 struct StepFault {
@@ -36,7 +37,7 @@ class MpmStep {
   /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
   /// the same kernels without the affine part, for projections of point velocities alone; on a
   /// fixed reference with it, for the present positions of nodes.
-  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
+  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, ContactSet& contact,
           const Kernels& kernels, const Kernels& plain, const std::vector<BodyKernelData>& bodies);
 
   /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
@@ -64,6 +65,13 @@ class MpmStep {
   void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                          double dt);
   GridEnergy momentum(double& dt, double force_share);
+  struct Constraints {
+    BoundaryWork walls;
+    ContactWork contact;
+    double work() const { return walls.work + contact.work; }
+  };
+  Constraints constrain();
+  void book(const Audit::StepEnergies& energies, const Constraints& constraints);
   void halve_until_safe(double& dt, double max_change);
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
@@ -86,6 +94,7 @@ class MpmStep {
   MethodOptions method_;
   BlockGrid& grid_;
   BoundarySet& boundary_;
+  ContactSet& contact_;
   const Kernels& kernels_;
   const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;

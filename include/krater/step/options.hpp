@@ -5,6 +5,7 @@
 /// (decisions).
 #include <array>
 #include <string>
+#include <vector>
 
 namespace krater {
 
@@ -38,6 +39,16 @@ struct MethodOptions {
   bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
   Reference reference = Reference::current;  ///< configuration of the weights (theory 3)
   double refresh_strain = 0.3;  ///< adaptive: largest Green-Lagrange strain before a new reference
+};
+
+/// Contact of velocity fields; every body has its own while it is on.
+struct ContactOptions {
+  bool active = false;
+  int fields = 0;
+  std::vector<double> friction;  ///< Coulomb coefficient by pair of fields, fields x fields
+  double friction_of(int a, int b) const {
+    return friction[static_cast<std::size_t>(a * fields + b)];
+  }
 };
 
 }  // namespace krater
