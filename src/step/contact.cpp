@@ -42,7 +42,8 @@ ContactSet::ContactSet(const GridGeometry& geometry, const BoundaryConditions& c
       linear_{linear},
       options_{options},
       edge_{block_edge(geometry.dimension)},
-      padded_{edge_ + 2 * kHalo} {
+      padded_{edge_ + 2 * kHalo},
+      size_{geometry.dimension == 3 ? padded_ * padded_ * padded_ : padded_ * padded_} {
   for (int a = geometry.dimension - 1, s = 1; a >= 0; --a, s *= padded_) stride_[a] = s;
 }
 
@@ -74,30 +75,49 @@ int ContactSet::mirrored(int axis, int index) const {
 void ContactSet::relink(const BlockGrid& grid) {
   groups_.clear();
   if (!options_.active) return;
-  const int dimension = geometry_.dimension;
-  const double cell = std::pow(geometry_.h, dimension);
   const std::vector<NodeBlock>& blocks = grid.node_blocks;
   for (std::size_t n = 0; n < blocks.size();) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
-      Group group{n, static_cast<int>(end - n), {}, {}};
-      for (std::size_t f = n; f < end; ++f)
-        for (int slot = 0; slot < neighbour_count(dimension); ++slot)
-          group.neighbours.push_back(
-              grid.find_node_block(shifted(blocks[n].key, slot, dimension), blocks[f].field));
-      for (int a = 0; a < dimension; ++a)
-        for (int i = -kHalo; i < edge_ + kHalo; ++i) {
-          const int index = mirrored(a, blocks[n].key.i[static_cast<unsigned>(a)] * edge_ + i);
-          const double part = covered(a, index) * (a == 0 ? cell : 1.0);
-          group.inverse.push_back(part > 0 ? 1 / part : 0.0);
-        }
-      groups_.push_back(std::move(group));
+      groups_.push_back({n, static_cast<int>(end - n), {}, {}});
+      link(grid, groups_.back());
     }
     n = end;
   }
   results_.resize(groups_.size());
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
+}
+
+void ContactSet::link(const BlockGrid& grid, Group& group) const {
+  const int dimension = geometry_.dimension, slots = neighbour_count(dimension);
+  const NodeBlock& home = grid.node_blocks[group.first];
+  std::vector<int> around;
+  for (int f = 0; f < group.fields; ++f)
+    for (int slot = 0; slot < slots; ++slot)
+      around.push_back(
+          grid.find_node_block(shifted(home.key, slot, dimension),
+                               grid.node_blocks[group.first + static_cast<std::size_t>(f)].field));
+  group.sources.resize(static_cast<std::size_t>(size_ * group.fields));
+  group.inverse.resize(static_cast<std::size_t>(size_));
+  for (int n = 0; n < size_; ++n) {
+    int slot = 0, local = 0;
+    double part = std::pow(geometry_.h, dimension);
+    for (int a = 0; a < dimension; ++a) {
+      const int origin = home.key.i[static_cast<unsigned>(a)] * edge_;
+      const int index = mirrored(a, origin + n / stride_[a] % padded_ - kHalo);
+      const int offset = index < origin ? -1 : (index >= origin + edge_ ? 1 : 0);
+      slot = 3 * slot + offset + 1;
+      local = local * edge_ + index - origin - offset * edge_;
+      part *= covered(a, index);
+    }
+    group.inverse[static_cast<std::size_t>(n)] = part > 0 ? 1 / part : 0;
+    for (int f = 0; f < group.fields; ++f) {
+      const int block = around[static_cast<std::size_t>(f * slots + slot)];
+      group.sources[static_cast<std::size_t>(f * size_ + n)] =
+          block < 0 ? -1 : block * kBlockNodes + local;
+    }
+  }
 }
 
 ContactWork ContactSet::apply(BlockGrid& grid) {
@@ -110,31 +130,16 @@ ContactWork ContactSet::apply(BlockGrid& grid) {
 }
 
 void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {
-  const int dimension = geometry_.dimension,
-            size = dimension == 3 ? padded_ * padded_ * padded_ : padded_ * padded_;
-  const BlockKey& key = grid.node_blocks[group.first].key;
-  scratch.filling.assign(static_cast<std::size_t>(size * group.fields), 0.0);
-  for (int n = 0; n < size; ++n) {
-    int slot = 0, local = 0;
-    double inverse = 1;
-    for (int a = 0; a < dimension; ++a) {
-      const int i = n / stride_[a] % padded_;
-      const int origin = key.i[static_cast<unsigned>(a)] * edge_;
-      const int index = mirrored(a, origin + i - kHalo) - origin;
-      const int offset = index < 0 ? -1 : (index >= edge_ ? 1 : 0);
-      slot = 3 * slot + offset + 1;
-      local = local * edge_ + index - offset * edge_;
-      inverse *= group.inverse[static_cast<std::size_t>(a * padded_ + i)];
+  const double* nodes = grid.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  scratch.filling.resize(group.sources.size());
+  for (int f = 0; f < group.fields; ++f)
+    for (int n = 0; n < size_; ++n) {
+      const auto i = static_cast<std::size_t>(f * size_ + n);
+      const std::int32_t from = group.sources[i];
+      scratch.filling[i] = from < 0 ? 0.0
+                                    : group.inverse[static_cast<std::size_t>(n)] *
+                                          nodes[kNodeDoubles * from + kVolume];
     }
-    for (int f = 0; f < group.fields; ++f) {
-      const int block =
-          group.neighbours[static_cast<std::size_t>(f * neighbour_count(dimension) + slot)];
-      if (block < 0) continue;
-      const double* nodes = grid.node_blocks[static_cast<std::size_t>(block)].nodes;
-      scratch.filling[static_cast<std::size_t>(f * size + n)] =
-          inverse * nodes[kNodeDoubles * local + kVolume];
-    }
-  }
 }
 
 /// Central differences, smoothed across by (1 2 1)/4 along each other axis; in units of 1/cell.
@@ -170,9 +175,8 @@ int ContactSet::joint_near(const double* phi_a, const double* phi_b, int at) con
 }
 
 bool ContactSet::find_contact(const Scratch& scratch, int fields, int at, Contact& contact) const {
-  const int size = static_cast<int>(scratch.filling.size()) / fields;
-  const double* phi_a = scratch.filling.data() + contact.a * size;
-  const double* phi_b = scratch.filling.data() + contact.b * size;
+  const double* phi_a = scratch.filling.data() + contact.a * size_;
+  const double* phi_b = scratch.filling.data() + contact.b * size_;
   const int joint = joint_near(phi_a, phi_b, at);
   const std::array<double, 3> grad_a = gradient(phi_a + joint), grad_b = gradient(phi_b + joint);
   // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
@@ -191,7 +195,8 @@ bool ContactSet::find_contact(const Scratch& scratch, int fields, int at, Contac
   }
   const auto total = [&](int n) {
     double sum = 0;
-    for (int f = 0; f < fields; ++f) sum += scratch.filling[static_cast<std::size_t>(f * size + n)];
+    for (int f = 0; f < fields; ++f)
+      sum += scratch.filling[static_cast<std::size_t>(f * size_ + n)];
     return sum;
   };
   const double beside = 0.5 * (total(joint - stride_[axis]) + total(joint + stride_[axis]));

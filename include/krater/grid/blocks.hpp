@@ -14,12 +14,12 @@
 /// Nodes are counted from the lower domain plane, shifted by one: the plane is storage index 1, the
 /// ghost beyond it 0.
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <vector>
 
 #include "krater/core/aligned.hpp"
 #include "krater/core/batch_types.hpp"
+#include "krater/grid/key_index.hpp"
 
 namespace krater {
 
@@ -43,11 +43,6 @@ struct GridGeometry {
   double upper(int axis) const {
     return min[static_cast<std::size_t>(axis)] + h * cells[static_cast<std::size_t>(axis)];
   }
-};
-
-struct BlockKey {
-  std::array<std::int32_t, 3> i{};
-  auto operator<=>(const BlockKey&) const = default;
 };
 
 /// The block that owns a position of `dimension` coordinates.
@@ -145,6 +140,7 @@ class BlockGrid {
 
   GridGeometry geometry_;
   std::vector<int> field_of_body_;
+  KeyIndex patch_index_, node_index_;
   AlignedBuffer node_memory_;
 };
 

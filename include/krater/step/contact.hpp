@@ -52,10 +52,10 @@ class ContactSet {
 
  private:
   struct Group {
-    std::size_t first;            ///< of the node blocks with one key ...
-    int fields;                   ///< ... one per field
-    std::vector<int> neighbours;  ///< node blocks at key + {-1,0,1}^dim, per field; -1: none
-    std::vector<double> inverse;  ///< 1/covered volume, per axis and padded index
+    std::size_t first;                  ///< of the node blocks with one key ...
+    int fields;                         ///< ... one per field
+    std::vector<std::int32_t> sources;  ///< per field and padded node: node in memory, -1: none
+    std::vector<double> inverse;        ///< 1/covered volume, per padded node
   };
   struct Scratch {
     std::vector<double> filling;  ///< per field, padded by two nodes on each side
@@ -67,6 +67,7 @@ class ContactSet {
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
   ContactWork touch_group(BlockGrid& grid, const Group& group, Scratch& scratch) const;
+  void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
   std::array<double, 3> gradient(const double* phi) const;
   int joint_near(const double* phi_a, const double* phi_b, int at) const;
@@ -77,7 +78,7 @@ class ContactSet {
   BoundaryConditions conditions_;
   bool hoop_, linear_;
   ContactOptions options_;
-  int edge_, padded_, stride_[3]{};  ///< block edge, padded edge, strides of the padded array
+  int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;
   std::vector<Scratch> scratch_;
   std::vector<ContactWork> results_;
