@@ -23,6 +23,7 @@ constexpr double kLargestStretch = 0.5;  // log strain of one step
 
 Matrix3d with_stretch(const PathStep& step, double x) {
   Matrix3d map = step.map;
+  if (step.control == Control::none) return map;
   const double stretch = std::expm1(x);
   for (int k = step.control == Control::mean_stress ? 0 : 1; k < 3; ++k) map(k, k) = stretch;
   return map;

@@ -38,7 +38,7 @@ class PointRunner {
   std::vector<ShockState> shocked() const;
   void run_hugoniot();
   void run_path();
-  void note_failure(const PointRecord& record, int step);
+  void note_failure(const PointRecord& record, const MaterialPoint& point, int step);
   void count_events(const Ledger& ledger);
   void write(const std::string& status, const std::string& message);
   Json summary(const std::string& status, const std::string& message) const;
@@ -92,11 +92,12 @@ void PointRunner::run_hugoniot() {
 }
 
 /// When and how far the point was when it failed.
-void PointRunner::note_failure(const PointRecord& record, int step) {
+void PointRunner::note_failure(const PointRecord& record, const MaterialPoint& point, int step) {
   failure_ = Json{};
   failure_["step"] = Json::of(step);
   failure_["time"] = Json::of(record.time());
   failure_["equivalent_strain"] = Json::of(record.equivalent_strain());
+  failure_["plastic_strain"] = Json::of(point.value(field::PlasticStrain::info));
 }
 
 void PointRunner::count_events(const Ledger& ledger) {
@@ -135,7 +136,7 @@ void PointRunner::run_path() {
       record.follow(map, step.dt, driver.trials(), last || (n + 1) % scene_.every == 0);
       ++steps_;
       const bool failed = point.value(field::Failed::info) > 0.5;
-      if (failed && failure_.kind == Json::Kind::null) note_failure(record, n + 1);
+      if (failed && failure_.kind == Json::Kind::null) note_failure(record, point, n + 1);
     } catch (const NumericalError& e) {
       problem = fmt::format("{}: step {} of {}, t = {:.6g} s: {}", scene_.path.where, n + 1,
                             path.steps(), record.time() + step.dt, e.what());
@@ -202,8 +203,9 @@ void PointRunner::print() const {
       double least = c.values.front(), greatest = least;
       for (const double x : c.values)
         least = std::fmin(least, x), greatest = std::fmax(greatest, x);
-      fmt::print("{:<18} {:>14.6g}  {:<8} {:>14.6g} {:>14.6g}\n", c.name, c.values.back(), c.unit,
-                 least, greatest);
+      if (least == 0 && greatest == 0) continue;
+      fmt::print("{:<18} {:>14.6g}  {:<8} {:>14.6g} {:>14.6g}\n", c.name, c.values.back() + 0.0,
+                 c.unit, least + 0.0, greatest + 0.0);
     }
   }
   std::string happened;
