@@ -231,6 +231,45 @@ def couplings():
         check(0.3 < t["damage"][-1] < 0.9, f"coupling {coupling}: damaged", f"{t['damage'][-1]:.4f}")
 
 
+def stress_rates():
+    """(32) and (43): the path of `coupling: rate` in shear against the rate equations, dq = 3G (1 - phi)(d strain - d eps)
+    with q = (1 - phi) sigma_Y kept, and that of `effective`; first order as dt -> 0. Strains so small that shear is
+    radial loading; a yield stress that hardens fast, softened by damage as fast."""
+    Y, H, end = 3e5, 2e9, 1.3e-5
+    R = 3 * K / (3 * K + G)  # triaxiality 0
+    S = Y**2 * R / (2 * 200e9) / 4e4  # d phi/d eps = 4e4 at q~ = Y
+
+    def exact(coupling, steps=20000):
+        state, h = np.zeros(2), (end - Y / (3 * G)) / steps
+
+        def slope(x):
+            eps, phi = x
+            flow = Y + H * eps
+            k = flow**2 * R / (2 * 200e9 * S)
+            growth = 3 * G / (3 * G + H - (k * flow / (1 - phi) if coupling == "rate" else 0))
+            return np.array([growth, k * growth])
+        for _ in range(steps):
+            a = slope(state)
+            b = slope(state + 0.5 * h * a)
+            c = slope(state + 0.5 * h * b)
+            state = state + h / 6 * (a + 2 * b + 2 * c + slope(state + h * c))
+        return (1 - state[1]) * (Y + H * state[0])
+
+    reached = {}
+    for coupling in ("rate", "effective"):
+        q, errors = exact(coupling), []
+        for steps in (500, 1000, 2000):
+            t, _ = point(f"{ELASTIC}, strength: {{von_mises: {{Y: {Y}, H: {H}}}}}, damage: {{lemaitre_energy: {{S: {S}, s: 1,"
+                         f" eps_d: 0, phi_c: 0.95}}, coupling: {coupling}}}",
+                         f"simple_shear: {{shear: {np.sqrt(3) * end}, rate: 1}}", steps=steps)
+            errors.append(abs(t["von_mises"][-1] / q - 1))
+        reached[coupling] = q
+        check(0.3 < t["damage"][-1] < 0.94, f"stress rate of coupling {coupling}: damaged", f"{t['damage'][-1]:.3f}")
+        order(f"stress rate of coupling {coupling}: first order", errors, 1, 0.1)
+    check(abs(reached["rate"] / reached["effective"] - 1) > 0.02, "stress rate: the couplings differ",
+          f"{reached['rate']:.6g} and {reached['effective']:.6g} Pa")
+
+
 # ---- shocks
 
 def hugoniots():
@@ -385,6 +424,7 @@ with Folder():
     motions()
     damage()
     couplings()
+    stress_rates()
     hugoniots()
     releases()
     mistakes()
