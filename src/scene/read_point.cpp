@@ -90,7 +90,10 @@ PointScene read_point(const std::string& file, const std::vector<std::string>& o
   Reading reading{scene, problems, tree};
   out.title = root.text("title", std::filesystem::path{file}.stem().string());
   for (const char* key : {"materials", "point"}) {
-    if (!tree.find(key)) root.fail("missing key '" + std::string{key} + "'");
+    const bool scene_file = tree.find("bodies") != nullptr;
+    if (!tree.find(key))
+      root.fail("missing key '" + std::string{key} + "'" +
+                (scene_file ? " (a scene is computed by krater run)" : ""));
   }
   root.record("materials", read_materials(root.find("materials"), reading));
   const Node* point = root.find("point");

@@ -189,6 +189,8 @@ def motions():
     t, _ = point(viscous, "uniaxial_strain: {strain: -1e-3, rate: 1e6}", steps=10, more=", length: 1 mm")
     q = t["density"][-1] * 1e-3 * (2 * 1e-3 * 1e12 + 0.5 * np.sqrt(K / 7850) * 1e6)
     near("viscosity: Decision 7 with the length given", t["viscous_pressure"][-1], q, 2e-3)
+    near("viscosity: in the stress", (t["stress_xx"] + t["stress_yy"] + t["stress_zz"])[-1] / -3,
+         t["pressure"][-1] + t["viscous_pressure"][-1], 1e-12)
 
 
 # ---- damage
@@ -353,6 +355,7 @@ def mistakes():
     edited("empty list", [r"bad\.yaml:11: .*empty"], "strain: 0.1", "strain: []")
     edited("no path", ["point: missing key 'path'"], good[good.index("  path:"):], "  steps: 3\n")
     edited("no point", ["missing key 'point'"], good[good.index("point:"):], "")
+    edited("a scene", ["missing key 'point' .*krater run"], good[good.index("point:"):], "bodies: {}\n")
     edited("a scene's block", ["unknown key 'grid'"], "point:", "grid: {}\npoint:")
     edited("unknown material", [r"bad\.yaml:9: point\.material: .*did you mean m|known: m"], "  path:",
            "  material: x\n  path:")
