@@ -29,6 +29,16 @@ constexpr const char* kShown[] = {
     "triaxiality",    "plastic_strain",  "temperature", "damage",    "density",
     "compression",    "internal_energy", "sound_speed", "work",      "energy_balance"};
 
+/// Puts a point into a state behind a shock. The step at rest gives what follows from it: the
+/// temperature, where that is a function of the energy.
+void set_state(MaterialPoint& point, const ShockState& s) {
+  point.set(field::Density::info, 0, s.density);
+  point.set(field::Pressure::info, 0, s.pressure);
+  point.set(field::InternalEnergy::info, 0, s.energy);
+  point.set(field::SoundSpeed::info, 0, s.sound_speed);
+  point.step(Eigen::Matrix3d::Zero(), 1.0);
+}
+
 class PointRunner {
  public:
   PointRunner(const RunOptions& options, PointScene point);
@@ -89,6 +99,13 @@ void PointRunner::run_hugoniot() {
   events_ = {{"hugoniot_poles", poles}};
   stages_ = {"eos: " + m.eos->name};
   table_ = hugoniot_table(states, m.density);
+  if (!m.heating || m.heating->name != "energy") return;  // else the heat of shocks is not known
+  table_.push_back({"temperature", "K", "behind the shock", {}});
+  for (const ShockState& s : states) {
+    MaterialPoint point{m, scene_.length, stage_factory(level_)};
+    set_state(point, s);
+    table_.back().values.push_back(point.value(field::Temperature::info));
+  }
 }
 
 /// When and how far the point was when it failed.
@@ -119,10 +136,7 @@ void PointRunner::run_path() {
   if (released) {
     const ShockState start = shocked().front();
     particle_speed = start.particle_speed;
-    point.set(field::Density::info, 0, start.density);
-    point.set(field::Pressure::info, 0, start.pressure);
-    point.set(field::InternalEnergy::info, 0, start.energy);
-    point.set(field::SoundSpeed::info, 0, start.sound_speed);
+    set_state(point, start);
   }
   const LoadingPath path{scene_.path, scene_.steps, point.value(field::Pressure::info), modulus};
   PathDriver driver{point};

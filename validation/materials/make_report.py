@@ -27,7 +27,7 @@ RATES, TEMPERATURES = (1, 1e3, 1e5), (294, 500, 700)
 COLOURS = {294: "#1f77b4", 500: "#ff7f0e", 700: "#d62728"}
 STYLES = {1: "-", 1e3: "--", 1e5: ":"}
 TRIAXIALITIES = (1 / 3, 2 / 3, 1.5)
-# Johnson-Cook damage, with the constants that the cards name in their comments (copper's: JC83).
+# Johnson-Cook damage, with the constants that the cards name in their comments (copper's: Uintah's material data).
 DAMAGES = {
     "Weldox 460 E, coupled": {
         "card": "weldox_460e", "D": (0.0705, 1.732, -0.54, -0.015, 0), "gamma_D": 0.8, "phi_c": 0.99},
