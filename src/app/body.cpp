@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "krater/app/material_plan.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/materials/catalogue.hpp"
 
@@ -76,22 +77,10 @@ void Body::declare_method_columns(const Scene& scene) {
 }
 
 void Body::add_stages(const StageFactory& factory) {
-  const auto planned = [](const std::optional<LawChoice>& choice) {
-    return choice ? PlannedLaw{choice->law, choice->values.data()} : PlannedLaw{};
-  };
-  if (material_->viscosity)
-    q_lin_ = material_->viscosity->values.at(0), q_quad_ = material_->viscosity->values.at(1);
-  MaterialPlan plan;
-  plan.constants = {material_->density, material_->shear_modulus, material_->initial_temperature};
-  plan.eos = planned(material_->eos), plan.strength = planned(material_->strength);
-  plan.damage = planned(material_->damage), plan.viscosity = planned(material_->viscosity);
-  plan.heating = planned(material_->heating);
-  plan.rate = material_->rate, plan.coupling = material_->coupling;
-  plan.degrade = material_->degrade_pressure;
+  const MaterialPlan plan = material_plan(*material_);
+  q_lin_ = plan.q_lin, q_quad_ = plan.q_quad;
   degrades_ =
       plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
-  if (material_->spall_strength) plan.spall_strength = *material_->spall_strength;
-  plan.q_lin = q_lin_, plan.q_quad = q_quad_;
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
 }

@@ -9,8 +9,6 @@
 
 namespace krater {
 
-namespace {
-
 const char* text_of(FaultKind kind) {
   switch (kind) {
     case FaultKind::not_finite_input:
@@ -30,6 +28,8 @@ const char* text_of(FaultKind kind) {
   }
   return "unknown";
 }
+
+namespace {
 
 /// A state means nothing on another grid.
 std::vector<double> grid_identity(Frame frame, const GridGeometry& g) {

@@ -23,6 +23,9 @@ struct Totals {
       0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
 };
 
+/// What a fault means, in words.
+const char* text_of(FaultKind kind);
+
 class Simulation {
  public:
   /// The scene must outlive the simulation. Throws InputError.
