@@ -89,6 +89,20 @@ void ContactSet::relink(const BlockGrid& grid) {
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
 }
 
+ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
+  AxisLinks links;
+  for (int a = 0; a < geometry_.dimension; ++a)
+    for (int i = 0; i < padded_; ++i) {
+      const int origin = key.i[static_cast<unsigned>(a)] * edge_;
+      const int index = mirrored(a, origin + i - kHalo);
+      const int offset = index < origin ? -1 : (index >= origin + edge_ ? 1 : 0);
+      AxisLink& link = links[static_cast<unsigned>(a)][static_cast<unsigned>(i)];
+      const double part = geometry_.h * covered(a, index);
+      link = {offset + 1, index - origin - offset * edge_, part > 0 ? 1 / part : 0};
+    }
+  return links;
+}
+
 void ContactSet::link(const BlockGrid& grid, Group& group) const {
   const int dimension = geometry_.dimension, slots = neighbour_count(dimension);
   const NodeBlock& home = grid.node_blocks[group.first];
@@ -98,35 +112,26 @@ void ContactSet::link(const BlockGrid& grid, Group& group) const {
       around.push_back(
           grid.find_node_block(shifted(home.key, slot, dimension),
                                grid.node_blocks[group.first + static_cast<std::size_t>(f)].field));
+  const AxisLinks links = axis_links(home.key);
   group.sources.resize(static_cast<std::size_t>(size_ * group.fields));
   group.inverse.resize(static_cast<std::size_t>(size_));
   for (int n = 0; n < size_; ++n) {
     int slot = 0, local = 0;
-    double part = std::pow(geometry_.h, dimension);
+    double inverse = 1;
     for (int a = 0; a < dimension; ++a) {
-      const int origin = home.key.i[static_cast<unsigned>(a)] * edge_;
-      const int index = mirrored(a, origin + n / stride_[a] % padded_ - kHalo);
-      const int offset = index < origin ? -1 : (index >= origin + edge_ ? 1 : 0);
-      slot = 3 * slot + offset + 1;
-      local = local * edge_ + index - origin - offset * edge_;
-      part *= covered(a, index);
+      const AxisLink& link =
+          links[static_cast<unsigned>(a)][static_cast<unsigned>(n / stride_[a] % padded_)];
+      slot = 3 * slot + link.slot;
+      local = local * edge_ + link.local;
+      inverse *= link.inverse;
     }
-    group.inverse[static_cast<std::size_t>(n)] = part > 0 ? 1 / part : 0;
+    group.inverse[static_cast<std::size_t>(n)] = inverse;
     for (int f = 0; f < group.fields; ++f) {
       const int block = around[static_cast<std::size_t>(f * slots + slot)];
       group.sources[static_cast<std::size_t>(f * size_ + n)] =
           block < 0 ? -1 : block * kBlockNodes + local;
     }
   }
-}
-
-ContactWork ContactSet::apply(BlockGrid& grid) {
-  for_each(groups_.size(), [&](std::size_t g) {
-    results_[g] = touch_group(grid, groups_[g], scratch_[static_cast<unsigned>(thread_index())]);
-  });
-  ContactWork sum;
-  for (const ContactWork& r : results_) sum.add(r);
-  return sum;
 }
 
 void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {

@@ -64,6 +64,12 @@ class ContactSet {
     int a, b;  ///< fields of the group
     std::array<double, 3> normal;
   };
+  struct AxisLink {
+    int slot, local;  ///< neighbour 0..2 along the axis, node in it
+    double inverse;   ///< 1/covered
+  };
+  using AxisLinks = std::array<std::array<AxisLink, 12>, 3>;
+  AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
   ContactWork touch_group(BlockGrid& grid, const Group& group, Scratch& scratch) const;
