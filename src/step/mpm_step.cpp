@@ -351,8 +351,7 @@ void MpmStep::throw_faults() const {
 }
 
 void MpmStep::migrate() {
-  for (const Removed& r : removed_)
-    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
+  for (const Removed& r : removed_) audit_.book_removed(r);
   if (deliver(grid_, bodies_))
     relink();
   else

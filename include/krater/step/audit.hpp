@@ -15,12 +15,21 @@
 
 namespace krater {
 
+/// Points taken out of the computation in a step: through an open side of the domain, or failed.
+struct Removed {
+  double count = 0, mass = 0, kinetic = 0, internal = 0;
+  std::array<double, 3> momentum{};
+  double failed = 0;       ///< of these, removed by failure
+  double reflections = 0;  ///< points put back at a closed side (round-off)
+};
+
 struct Audit {
   double kinetic = 0, internal = 0;  ///< of the points, now [J]
   double initial_kinetic = 0, initial_internal = 0;
   double transfer_in = 0, transfer_out = 0, time_centring = 0;  ///< sums over all steps [J]
   double internal_work = 0, external_work = 0, wall_work = 0;
   double removed_energy = 0, removed_mass = 0, removed_points = 0;
+  double removed_failed = 0;  ///< of the removed points, those removed by failure
   std::array<double, 3> removed_momentum{}, wall_impulse{};
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
@@ -40,8 +49,7 @@ struct Audit {
                  const std::array<double, 3>& impulse, int columns);
   void book_events(const Ledger& ledger);
   /// Energy and momentum that left with removed points.
-  void book_removed(double kinetic_gone, double internal_gone, double mass, double count,
-                    const std::array<double, 3>& momentum, double reflected);
+  void book_removed(const Removed& gone);
 
   /// (KE + IE now) - (at the start) + everything booked as gone or come: zero but for round-off
   /// [J].
