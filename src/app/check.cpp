@@ -32,8 +32,23 @@ void print_body(const Simulation& sim, const Body& body, int index) {
   fmt::print("\n");
 }
 
+/// The largest difference of the bodies' mean velocities, or the speed of the fastest where there
+/// is none to meet (a wall, a still target).
+double closing_speed(const Simulation& sim, double fastest) {
+  double closing = fastest;
+  for (std::size_t a = 0; a < sim.bodies().size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const Totals s = sim.totals(static_cast<int>(a)), t = sim.totals(static_cast<int>(b));
+      double square = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        square += std::pow(s.momentum[k] / s.mass - t.momentum[k] / t.mass, 2);
+      closing = std::max(closing, std::sqrt(square));
+    }
+  return closing;
+}
+
 /// Impact regime by velocity and stress (BUSH, after Zukas): what a scene of this speed needs.
-void print_advice(const Scene& scene, double fastest) {
+void print_advice(const Scene& scene, double fastest, double closing) {
   for (const MaterialOptions& m : scene.materials) {
     if (fastest > 500 && m.eos && m.eos->name == "linear")
       fmt::print(
@@ -48,9 +63,11 @@ void print_advice(const Scene& scene, double fastest) {
                  m.name);
     if (fastest > 100 && m.strength && m.strength->name == "johnson_cook" && !m.heating)
       fmt::print("advice: {}: johnson_cook without heating: no thermal softening\n", m.name);
-    if (fastest > 2000 && m.heating)
-      fmt::print("advice: {}: plastic_work heating misses shock heating above 2 km/s (theory 8)\n",
-                 m.name);
+    if (closing > 2000 && m.heating && m.heating->name == "plastic_work")
+      fmt::print(
+          "advice: {}: impact at {:.0f} m/s: plastic_work misses the heat of the shock (theory 8); "
+          "heating: {{energy: {{c_v: ...}}}} sees it\n",
+          m.name, closing);
   }
 }
 
@@ -76,7 +93,11 @@ void print_check(const RunOptions& options) {
   fmt::print("estimate: {:.0f} steps, {:.0f} MB, {:.1f} s on one core\n", steps,
              1e-6 * sim.bytes_per_point() * static_cast<double>(sim.point_count()),
              work / (dimension(scene.frame) == 3 ? kRate3d : kRate2d));
-  print_advice(scene, fastest);
+  print_advice(scene, fastest, closing_speed(sim, fastest));
+  for (const MaterialOptions& m : scene.materials)
+    for (const std::string& key : m.unused)
+      fmt::print("note: {}: its card holds {}, which this scene does not use ({}: card)\n", m.name,
+                 key, key);
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
 }

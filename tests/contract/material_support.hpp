@@ -34,7 +34,7 @@ inline constexpr MaterialConstants kCopper{8960.0, 46e9, 294.0};
 struct Recipe {
   std::string strength, eos;
   bool viscosity = true;
-  bool heating = false;
+  bool heating = false;            ///< plastic_work
   bool track_deformation = false;  ///< a column F that the kinematics stage keeps
   std::string damage = {};
   Rate rate = Rate::truesdell;
@@ -44,6 +44,7 @@ struct Recipe {
   /// Instead of typical_parameters: "law.key" and value.
   std::map<std::string, double> parameters = {};
   MaterialConstants constants = kCopper;
+  bool thermal = false;  ///< heating: energy
 };
 /// Every strength with every eos (or none, if it gives the whole stress), every damage law with the
 /// couplings it allows, every rate with and without damage; from the catalogue.
