@@ -334,8 +334,7 @@ double& Body::local(const char* field, int point, int component) {
 }
 
 void Body::pad() {
-  const int batches = groups_ / groups_per_batch_;
-  for (int b = 0; b < batches; ++b) {
+  for (int b = 0; b < batches(); ++b) {
     const int last = std::min((b + 1) * batch_size_, points_) - 1;
     const int from = slot(last), end = (b + 1) * groups_per_batch_ * kLanes;
     const auto copy = [&](double* base, int stride, int to) {
@@ -353,25 +352,28 @@ void Body::pad() {
   }
 }
 
+BatchData Body::batch(int index, double dt) {
+  const int first = index * groups_per_batch_;
+  const int count = std::min(batch_size_, points_ - index * batch_size_);
+  return {.state = state_ + first * layout_.stride(),
+          .state_stride = layout_.stride(),
+          .local = local_ + first * layout_.local_stride(),
+          .local_stride = layout_.local_stride(),
+          .zeros = zeros_,
+          .groups = (count + kLanes - 1) / kLanes,
+          .count = count,
+          .first_group = first,
+          .dt = dt,
+          .length = 1e-4,
+          .ledger = &ledger,
+          .fault = &fault};
+}
+
 void Body::step(double dt) {
   pad();
-  const int batches = groups_ / groups_per_batch_;
-  for (int b = 0; b < batches; ++b) {
-    const int first = b * groups_per_batch_;
-    const int count = std::min(batch_size_, points_ - b * batch_size_);
-    const BatchData batch{.state = state_ + first * layout_.stride(),
-                          .state_stride = layout_.stride(),
-                          .local = local_ + first * layout_.local_stride(),
-                          .local_stride = layout_.local_stride(),
-                          .zeros = zeros_,
-                          .groups = (count + kLanes - 1) / kLanes,
-                          .count = count,
-                          .first_group = first,
-                          .dt = dt,
-                          .length = 1e-4,
-                          .ledger = &ledger,
-                          .fault = &fault};
-    for (const NamedStage& stage : stages_) stage.stage->apply(batch);
+  for (int b = 0; b < batches(); ++b) {
+    const BatchData data = batch(b, dt);
+    for (const NamedStage& stage : stages_) stage.stage->apply(data);
   }
 }
 

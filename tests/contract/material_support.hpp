@@ -67,6 +67,12 @@ class Body {
   /// batch.
   void step(double dt);
 
+  /// The batches of a step, as the stages see them; step() pads them first.
+  int batches() const { return groups_ / groups_per_batch_; }
+  BatchData batch(int index, double dt);
+  /// All state and local records, to be kept and put back.
+  std::vector<double>& storage() { return storage_; }
+
   /// Every state and local value of a point, in column order, for comparison of bits.
   std::vector<double> everything(int point);
 
