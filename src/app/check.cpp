@@ -32,18 +32,30 @@ void print_body(const Simulation& sim, const Body& body, int index) {
   fmt::print("\n");
 }
 
-/// The largest difference of the bodies' mean velocities, or the speed of the fastest where there
-/// is none to meet (a wall, a still target).
+/// The largest speed at which a body meets another, its mirror image in a symmetry plane, or a
+/// moving plane, by the bodies' mean velocities; at least the speed of the fastest (walls, still
+/// targets).
 double closing_speed(const Simulation& sim, double fastest) {
   double closing = fastest;
-  for (std::size_t a = 0; a < sim.bodies().size(); ++a)
+  const auto mean_velocity = [&](std::size_t body) {
+    const Totals t = sim.totals(static_cast<int>(body));
+    Triple v{};
+    for (std::size_t k = 0; k < 3; ++k) v[k] = t.mass > 0 ? t.momentum[k] / t.mass : 0;
+    return v;
+  };
+  for (std::size_t a = 0; a < sim.bodies().size(); ++a) {
+    const Triple v = mean_velocity(a);
     for (std::size_t b = 0; b < a; ++b) {
-      const Totals s = sim.totals(static_cast<int>(a)), t = sim.totals(static_cast<int>(b));
-      double square = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        square += std::pow(s.momentum[k] / s.mass - t.momentum[k] / t.mass, 2);
-      closing = std::max(closing, std::sqrt(square));
+      const Triple w = mean_velocity(b);
+      closing = std::max(closing, std::hypot(v[0] - w[0], v[1] - w[1], v[2] - w[2]));
     }
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const Boundary& plane : sim.scene().grid.boundary[k]) {
+        if (plane.kind == BoundaryKind::symmetry) closing = std::max(closing, 2 * std::fabs(v[k]));
+        if (plane.kind == BoundaryKind::velocity)
+          closing = std::max(closing, std::fabs(v[k] - plane.velocity[k]));
+      }
+  }
   return closing;
 }
 
