@@ -39,7 +39,7 @@ std::string path_of(const std::string& name) {
 /// Doubts other than the missing spall strength.
 std::vector<std::string> doubts_of(const MaterialOptions& material) {
   std::vector<std::string> doubts = examine(material);
-  std::erase(doubts, kSpall);
+  std::erase_if(doubts, [](const std::string& doubt) { return doubt.starts_with(kSpall); });
   return doubts;
 }
 
