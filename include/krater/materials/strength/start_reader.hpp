@@ -4,6 +4,8 @@
 /// and open the voids of a dilatant law.
 #pragma once
 
+#include <type_traits>
+
 #include "krater/materials/batch_access.hpp"
 #include "krater/materials/strength/flow.hpp"
 
