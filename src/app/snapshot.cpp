@@ -171,6 +171,7 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
         a.wall_impulse[static_cast<std::size_t>(k)]);
   add(row, "angular_momentum", "kg m^2/s", t.angular_momentum);
   add(row, "removed_points", "1", a.removed_points);
+  add(row, "removed_mass", "kg", a.removed_mass);
   add(row, "wall_columns", "1", a.wall_columns);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
@@ -213,10 +214,12 @@ Json audit_json(const Simulation& sim) {
     const std::string axis{axis_name(sim.scene().frame, k)};
     j["momentum_" + axis] = Json::of(t.momentum[static_cast<std::size_t>(k)]);
     j["wall_impulse_" + axis] = Json::of(a.wall_impulse[static_cast<std::size_t>(k)]);
+    j["removed_momentum_" + axis] = Json::of(a.removed_momentum[static_cast<std::size_t>(k)]);
   }
   j["angular_momentum"] = Json::of(t.angular_momentum);
   Json events;
   events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));
+  events["removed_failed_points"] = Json::of(static_cast<std::int64_t>(a.removed_failed));
   events["sound_speed_floors"] = Json::of(static_cast<std::int64_t>(a.sound_speed_floors));
   events["hugoniot_poles"] = Json::of(static_cast<std::int64_t>(a.hugoniot_poles));
   events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));

@@ -35,15 +35,15 @@ void Audit::book_point_walls(const std::array<double, 3>& force, double dt, bool
   external_work = 0;
 }
 
-void Audit::book_removed(double kinetic_gone, double internal_gone, double mass, double count,
-                         const std::array<double, 3>& momentum, double reflected) {
-  kinetic -= kinetic_gone;
-  internal -= internal_gone;
-  removed_energy += kinetic_gone + internal_gone;
-  removed_mass += mass;
-  removed_points += count;
-  for (std::size_t a = 0; a < 3; ++a) removed_momentum[a] += momentum[a];
-  reflections += reflected;
+void Audit::book_removed(const Removed& gone) {
+  kinetic -= gone.kinetic;
+  internal -= gone.internal;
+  removed_energy += gone.kinetic + gone.internal;
+  removed_mass += gone.mass;
+  removed_points += gone.count;
+  removed_failed += gone.failed;
+  for (std::size_t a = 0; a < 3; ++a) removed_momentum[a] += gone.momentum[a];
+  reflections += gone.reflections;
 }
 
 }  // namespace krater

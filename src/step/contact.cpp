@@ -81,12 +81,20 @@ void ContactSet::relink(const BlockGrid& grid) {
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
       groups_.push_back({n, static_cast<int>(end - n), {}, {}});
-      link(grid, groups_.back());
     }
     n = end;
   }
   results_.resize(groups_.size());
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
+}
+
+ContactWork ContactSet::apply(BlockGrid& grid) {
+  for_each(groups_.size(), [&](std::size_t g) {
+    results_[g] = touch_group(grid, groups_[g], scratch_[static_cast<unsigned>(thread_index())]);
+  });
+  ContactWork sum;
+  for (const ContactWork& r : results_) sum.add(r);
+  return sum;
 }
 
 ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
@@ -236,7 +244,7 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   sum.nodes += 1;
 }
 
-ContactWork ContactSet::touch_group(BlockGrid& grid, const Group& group, Scratch& scratch) const {
+ContactWork ContactSet::touch_group(BlockGrid& grid, Group& group, Scratch& scratch) const {
   ContactWork sum;
   bool filled = false;
   const auto block = [&](int f) -> NodeBlock& {
@@ -251,6 +259,7 @@ ContactWork ContactSet::touch_group(BlockGrid& grid, const Group& group, Scratch
     for (int a = 0; a < group.fields; ++a)
       for (int b = a + 1; b < group.fields && node(a)[kMass] > 0; ++b) {
         if (!(node(b)[kMass] > 0) || count == 8) continue;
+        if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
         contacts[count] = {a, b, {}};

@@ -59,6 +59,18 @@ BlockKey block_of_point(Patch& patch, const GridGeometry& geometry, const PointC
   return block_of(geometry, position);
 }
 
+/// Lanes of a group that failure takes out, among the points of the patch.
+unsigned failed_lanes(const Patch& patch, const PointColumns& c, int g) {
+  if (c.removed < 0) return 0;
+  const double* failed = patch.records.data() +
+                         static_cast<std::size_t>(g) * static_cast<std::size_t>(c.stride) +
+                         c.removed;
+  unsigned lanes = 0;
+  for (int l = 0; l < kLanes && kLanes * g + l < patch.count; ++l)
+    if (failed[l] > 0.5) lanes |= 1U << l;
+  return lanes;
+}
+
 enum class Fate { stays, goes, removed };
 
 /// Puts a point back inside closed sides, then says where it belongs.
@@ -114,12 +126,16 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
   patch.outbox.clear();
   std::vector<int> holes;
   for (int g = 0; g < patch.groups(); ++g) {
-    if (leavers[g] == 0) continue;
+    const unsigned failed = failed_lanes(patch, columns, g), all = leavers[g] | failed;
+    if (all == 0) continue;
     for (int l = 0; l < kLanes; ++l) {
-      if (((leavers[g] >> l) & 1) == 0) continue;
+      if (((all >> l) & 1U) == 0) continue;
       const int i = kLanes * g + l;
+      const bool is_failed = ((failed >> l) & 1U) != 0;
       int slot = 0;
-      const Fate fate = judge(patch, geometry, boundary, columns, i, slot, removed);
+      const Fate fate =
+          is_failed ? Fate::removed : judge(patch, geometry, boundary, columns, i, slot, removed);
+      if (is_failed) removed.failed += 1;
       if (fate == Fate::stays) continue;
       if (fate == Fate::goes)
         post(patch, columns.stride, slot, i);

@@ -365,9 +365,10 @@ void MpmStep::throw_faults() const {
 }
 
 void MpmStep::migrate() {
-  for (const Removed& r : removed_)
-    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
-  if (method_.reference == Reference::adaptive ? renew_references() : deliver(grid_, bodies_))
+  for (const Removed& r : removed_) audit_.book_removed(r);
+  bool changed = deliver(grid_, bodies_);
+  if (method_.reference == Reference::adaptive) changed = renew_references() || changed;
+  if (changed)
     relink();
   else
     provide_memory();  // patches may have grown

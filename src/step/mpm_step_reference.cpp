@@ -38,7 +38,7 @@ bool MpmStep::renew_references() {
         renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, change);
     audit_.kinetic += change;
     audit_.transfer_out -= change;
-    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
+    audit_.book_removed(r);
     audit_.new_references += 1;
     renewed = true;
   }

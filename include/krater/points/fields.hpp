@@ -83,6 +83,9 @@ KRATER_FIELD(SpecificVolumes, "specific_volumes", "m^3/kg", 2, "v_n and v_n+1");
 KRATER_FIELD(SpecificWork, "specific_work", "J/kg", 1,
              "work of deviator and viscosity in the step");
 KRATER_FIELD(ShearModulus, "shear_modulus", "Pa", 1, "undamaged shear modulus of the step");
+KRATER_FIELD(EffectivePressure, "effective_pressure", "Pa", 1,
+             "pressure on the undamaged area at the start of the step");
+KRATER_FIELD(OpenedVolume, "opened_volume", "m^3/kg", 1, "voids opened by the step's plastic flow");
 KRATER_FIELD(TensionLimit, "tension_limit", "Pa", 1,
              "lowest pressure that the strength law lets the material carry");
 KRATER_FIELD(PlasticWork, "plastic_work", "J/kg", 1, "q d / rho of the step");

@@ -47,7 +47,9 @@ struct MaterialOptions {
   Rate rate = Rate::truesdell;
   Coupling coupling = Coupling::effective;                      ///< of damage
   DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage
+  FailureAction failure = FailureAction::strength_loss;
   std::optional<double> spall_strength;  ///< largest tension carried [Pa]; absent: no limit
+  std::vector<std::string> unused;       ///< keys of its card that the scene does not ask for
 };
 
 /// A vector field given by expressions in x y z r t (and X Y Z R: position at the start), or

@@ -15,6 +15,14 @@
 
 namespace krater {
 
+/// Points taken out of the computation in a step: through an open side of the domain, or failed.
+struct Removed {
+  double count = 0, mass = 0, kinetic = 0, internal = 0;
+  std::array<double, 3> momentum{};
+  double failed = 0;       ///< of these, removed by failure
+  double reflections = 0;  ///< points put back at a closed side (round-off)
+};
+
 struct Audit {
   double kinetic = 0, internal = 0;  ///< of the points, now [J]
   double initial_kinetic = 0, initial_internal = 0;
@@ -23,6 +31,7 @@ struct Audit {
   double contact_work = 0;   ///< normal and friction [J]
   double friction_work = 0;  ///< part of contact_work [J]
   double removed_energy = 0, removed_mass = 0, removed_points = 0;
+  double removed_failed = 0;  ///< of the removed points, those removed by failure
   std::array<double, 3> removed_momentum{}, wall_impulse{};
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
@@ -49,8 +58,7 @@ struct Audit {
   /// force did, so that their work can be told apart.
   void book_point_walls(const std::array<double, 3>& force, double dt, bool alone);
   /// Energy and momentum that left with removed points.
-  void book_removed(double kinetic_gone, double internal_gone, double mass, double count,
-                    const std::array<double, 3>& momentum, double reflected);
+  void book_removed(const Removed& gone);
 
   /// (KE + IE now) - (at the start) + everything booked as gone or come: zero but for round-off
   /// [J].

@@ -54,7 +54,8 @@ class ContactSet {
   struct Group {
     std::size_t first;                  ///< of the node blocks with one key ...
     int fields;                         ///< ... one per field
-    std::vector<std::int32_t> sources;  ///< per field and padded node: node in memory, -1: none
+    std::vector<std::int32_t> sources;  ///< per field and padded node: node in memory, -1: none;
+                                        ///< linked when two bodies first share a node
     std::vector<double> inverse;        ///< 1/covered volume, per padded node
   };
   struct Scratch {
@@ -72,7 +73,7 @@ class ContactSet {
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
-  ContactWork touch_group(BlockGrid& grid, const Group& group, Scratch& scratch) const;
+  ContactWork touch_group(BlockGrid& grid, Group& group, Scratch& scratch) const;
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
   std::array<double, 3> gradient(const double* phi) const;
