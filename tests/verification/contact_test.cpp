@@ -117,6 +117,64 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
   return {velocity_of(run, 0), velocity_of(run, 1)};
 }
 
+/// Hertz (exact.md D8): equal steel spheres of 1 m that meet at 17.3 m/s; the contact radius is
+/// sqrt(R d/2) = 0.1 m.
+struct Hertz {
+  double peak_force, duration;  ///< over the exact ones
+};
+
+/// m x'' = -k x^1.5 by small steps: greatest force, and time from 10 to 90 % of the impulse.
+Hertz hertz_exact(double mass, double k, double speed) {
+  Hertz out{};
+  double x = 0, v = speed, t = 0, start = 0;
+  const double dt = 1e-7;
+  while (v > -0.8 * speed) {
+    v -= k * std::pow(x, 1.5) / mass * dt;
+    x += v * dt;
+    t += dt;
+    out.peak_force = std::max(out.peak_force, k * std::pow(x, 1.5));
+    if (v > 0.8 * speed) start = t;
+  }
+  out.duration = t - start;
+  return out;
+}
+
+Hertz spheres(int cells_per_radius) {
+  const double E = 210e9, nu = 0.3, speed = 17.3;
+  std::ostringstream yaml;
+  yaml.precision(17);
+  yaml << "frame: axisymmetric\ngrid:\n  cell: " << 1.0 / cells_per_radius
+       << "\n  box: {min: [0, -2.5], max: [1.5, 2.5]}\n  boundary: {r_min: axis}\n"
+          "time: {end: 1}\nmaterials:\n  steel: {density: 7850, youngs_modulus: 210e9, "
+          "poisson_ratio: 0.3, eos: linear, strength: elastic}\nbodies:\n"
+          "  upper: {material: steel, shape: {sphere: {radius: 1, center: [0, 0, 1.002]}}, "
+          "velocity: [0, "
+       << -speed / 2
+       << "]}\n  lower: {material: steel, shape: {sphere: {radius: 1, center: [0, 0, -1.002]}}, "
+          "velocity: [0, "
+       << speed / 2 << "]}\ncontact: {}\n";
+  Run run = start_text(yaml.str());
+  const double mass = run.sim->totals(0).mass;
+  const double k = 4.0 / 3.0 * E / (2 * (1 - nu * nu)) * std::sqrt(0.5);
+  const Hertz exact = hertz_exact(mass / 2, k, speed);
+  // Momentum of one sphere, and the force as its slope over a twentieth of the duration.
+  const double window = exact.duration / 20;
+  std::vector<std::array<double, 2>> p;
+  double start = 0, end = 0, peak = 0;
+  while (run.sim->time() < 5e-3 && end <= 0) {
+    run.sim->step(1);
+    const double done = 0.5 * (1 + velocity_of(run, 0) / (speed / 2)), t = run.sim->time();
+    p.push_back({t, done});
+    if (done < 0.1) start = t;
+    if (done > 0.9) end = t;
+  }
+  for (std::size_t i = 0, j = 0; i < p.size(); ++i) {
+    while (p[i][0] - p[j][0] > window) ++j;
+    if (j > 0) peak = std::max(peak, mass * speed * (p[i][1] - p[j][1]) / (p[i][0] - p[j][0]));
+  }
+  return {peak / exact.peak_force, (end - start) / exact.duration};
+}
+
 }  // namespace
 
 TEST_SUITE("verification") {
@@ -234,5 +292,15 @@ TEST_SUITE("verification") {
                steel = column(run, field::Position::info, 1, 1);
     CHECK(*std::min_element(foam.begin(), foam.end()) >
           *std::max_element(steel.begin(), steel.end()));
+  }
+
+  TEST_CASE("Hertz: force and duration of the impact of two spheres") {
+    for (const int cells : {25, 50}) {
+      const Hertz h = spheres(cells);
+      MESSAGE(cells, " cells per radius: peak force ", h.peak_force, ", duration ", h.duration,
+              " of Hertz'");
+      CHECK(h.peak_force == doctest::Approx(1).epsilon(0.05));
+      CHECK(h.duration == doctest::Approx(1).epsilon(0.05));
+    }
   }
 }
