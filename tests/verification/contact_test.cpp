@@ -248,13 +248,12 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("a block slides by Coulomb friction, and friction takes the energy") {
-    // The edge that leads ploughs a little: an error of the corner's cells, of first order.
     const Sliding coarse = slide(0.02), fine = slide(0.01);
     MESSAGE("velocity lost / (mu g t): ", coarse.lost, ", ", fine.lost, "; friction work / exact ",
             coarse.work, ", ", fine.work);
-    CHECK(fine.lost == doctest::Approx(1).epsilon(0.015));
-    CHECK(fine.work == doctest::Approx(1).epsilon(0.015));
-    CHECK(std::abs(fine.lost - 1) < 0.55 * std::abs(coarse.lost - 1));
+    CHECK(coarse.lost == doctest::Approx(1).epsilon(0.02));
+    for (const double share : {coarse.work, fine.lost, fine.work})
+      CHECK(share == doctest::Approx(1).epsilon(0.01));
   }
 
   TEST_CASE("three thin plates in the cells of one: no penetration, momentum exact") {
@@ -295,7 +294,7 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("Hertz: force and duration of the impact of two spheres") {
-    for (const int cells : {25, 50}) {
+    for (const int cells : {20, 40}) {
       const Hertz h = spheres(cells);
       MESSAGE(cells, " cells per radius: peak force ", h.peak_force, ", duration ", h.duration,
               " of Hertz'");
