@@ -124,7 +124,7 @@ int Body::slot(const FieldInfo& field, int component) const {
 std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   LatticeOptions lattice;
   lattice.cell = scene.grid.cell;
-  lattice.points_per_direction = scene.method.points_per_direction;
+  lattice.points_per_direction.fill(scene.method.points_per_direction);
   lattice.origin = scene.grid.min;
   lattice.stagger = scene.method.stagger;
   lattice.jitter = scene.method.jitter;

@@ -97,7 +97,8 @@ Affine operator*(const Affine& a, const Affine& b) {
   Affine map;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      map.linear[3 * i + j] = a.linear[3 * i] * b.linear[j] + a.linear[3 * i + 1] * b.linear[3 + j] +
+      map.linear[3 * i + j] = a.linear[3 * i] * b.linear[j] +
+                              a.linear[3 * i + 1] * b.linear[3 + j] +
                               a.linear[3 * i + 2] * b.linear[6 + j];
     }
   }

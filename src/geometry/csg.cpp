@@ -17,6 +17,15 @@ class BooleanSolid final : public Solid {
  public:
   BooleanSolid(Boolean operation, Operands operands)
       : operation_(operation), operands_(std::move(operands)) {}
+  BooleanSolid(const BooleanSolid& original, const Affine& map)
+      : operation_(original.operation_),
+        own_(original.own_.empty() ? original.operands_ : original.own_),
+        map_(map * original.map_) {
+    for (const auto& s : own_) operands_.push_back(transformed(s, map_));
+    if (map_.is_similarity()) {
+      before_ = std::make_shared<BooleanSolid>(operation_, own_);
+    }
+  }
 
   using Solid::contains;
 
@@ -77,9 +86,12 @@ class BooleanSolid final : public Solid {
   }
 
   std::shared_ptr<const Solid> mapped(const Affine& map) const override {
-    Operands images;
-    for (const auto& s : operands_) images.push_back(transformed(s, map));
-    return std::make_shared<BooleanSolid>(operation_, std::move(images));
+    return std::make_shared<BooleanSolid>(*this, map);
+  }
+
+  const Solid* unmapped(Affine& map) const override {
+    map = map_;
+    return before_.get();
   }
 
  private:
@@ -97,6 +109,9 @@ class BooleanSolid final : public Solid {
 
   Boolean operation_;
   Operands operands_;
+  Operands own_;  ///< before `map_`; empty: as `operands_`
+  Affine map_;
+  std::shared_ptr<const BooleanSolid> before_;
 };
 
 /// A solid seen through a map: lines and points are taken back into its own coordinates.
@@ -144,6 +159,11 @@ class MappedSolid final : public Solid {
 
   std::shared_ptr<const Solid> mapped(const Affine& map) const override {
     return std::make_shared<MappedSolid>(solid_, map * map_);
+  }
+
+  const Solid* unmapped(Affine& map) const override {
+    map = map_;
+    return map_.is_similarity() ? solid_.get() : nullptr;
   }
 
  private:

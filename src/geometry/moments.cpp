@@ -47,8 +47,8 @@ VolumeMoments VolumeMoments::mapped(const Affine& map) const {
         sum += map.linear[3 * a + p] * s[3 * p + q] * map.linear[3 * b + q];
       }
     }
-    sum += turned[a] * map.shift[b] + map.shift[a] * turned[b] +
-           volume * map.shift[a] * map.shift[b];
+    sum +=
+        turned[a] * map.shift[b] + map.shift[a] * turned[b] + volume * map.shift[a] * map.shift[b];
     out.second[n] = j * sum;
   }
   return out;
@@ -67,9 +67,9 @@ VolumeMoments tetrahedron_moments(const Vector3& a, const Vector3& b, const Vect
   for (std::size_t i = 0; i < 3; ++i) m.first[i] = v * (a[i] + b[i] + c[i]) / 4;
   for (std::size_t n = 0; n < 6; ++n) {
     const std::size_t i = row[n], j = column[n];
-    m.second[n] = v / 20 *
-                  ((a[i] + b[i] + c[i]) * (a[j] + b[j] + c[j]) + a[i] * a[j] + b[i] * b[j] +
-                   c[i] * c[j]);
+    m.second[n] =
+        v / 20 *
+        ((a[i] + b[i] + c[i]) * (a[j] + b[j] + c[j]) + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
   }
   return m;
 }

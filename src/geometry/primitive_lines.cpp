@@ -71,7 +71,7 @@ void CylinderSolid::spans(const Line& line, Spans& out) const {
     dd += d * d, xd += x * d, xx += x * x;
   }
   give(common(within(dd, xd, xx, radius_), between(base_[axis_], base_[axis_] + height_,
-                                                  line.origin[axis_], line.direction[axis_])),
+                                                   line.origin[axis_], line.direction[axis_])),
        out);
 }
 

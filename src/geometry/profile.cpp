@@ -137,7 +137,8 @@ void ProfileCurve::add(const ProfileEdge& e) {
     if (n + 2 == cut.size()) piece.u1 = e.u1, piece.v1 = e.v1;
     u = piece.u1, v = piece.v1;
     const double middle = 0.5 * (cut[n] + cut[n + 1]);
-    pieces_.push_back({piece, std::cos(middle) < 0 ? -1.0 : 1.0, std::sin(middle) < 0 ? -1.0 : 1.0});
+    pieces_.push_back(
+        {piece, std::cos(middle) < 0 ? -1.0 : 1.0, std::sin(middle) < 0 ? -1.0 : 1.0});
   }
 }
 

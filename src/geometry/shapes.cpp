@@ -90,10 +90,8 @@ std::shared_ptr<const Solid> make_tube(double inner_radius, double outer_radius,
   if (!(outer_radius > inner_radius)) {
     throw std::invalid_argument("the outer radius of the tube must exceed the inner one");
   }
-  return make_revolution(polygon_profile({{inner_radius, 0},
-                                          {outer_radius, 0},
-                                          {outer_radius, height},
-                                          {inner_radius, height}}));
+  return make_revolution(polygon_profile(
+      {{inner_radius, 0}, {outer_radius, 0}, {outer_radius, height}, {inner_radius, height}}));
 }
 
 std::shared_ptr<const Solid> make_cone(double base_radius, double top_radius, double height) {

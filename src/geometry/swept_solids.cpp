@@ -162,9 +162,9 @@ class ExtrudedSolid final : public SweptSolid {
     VolumeMoments m;
     m.volume = h * curve_.moment(0, 0);
     m.first = {h * curve_.moment(1, 0), h * curve_.moment(0, 1), 0.5 * height_ * m.volume};
-    m.second = {h * curve_.moment(2, 0),        h * curve_.moment(0, 2),
+    m.second = {h * curve_.moment(2, 0),          h * curve_.moment(0, 2),
                 height_ * height_ / 3 * m.volume, 0.5 * height_ * m.first[1],
-                0.5 * height_ * m.first[0],     h * curve_.moment(1, 1)};
+                0.5 * height_ * m.first[0],       h * curve_.moment(1, 1)};
     return m;
   }
 

@@ -2,12 +2,12 @@
 // Solids swept from a plane profile: revolved about z, or extruded along z. A profile is a closed
 // curve of straight edges and circular arcs.
 //
-// Spans on a line: all parameters at which the line meets the surfaces of the edges, continued where
-// that is simpler, cut it into pieces; each piece is in or out with its middle. Extra cuts do no
-// harm, so ends of edges need no care. The surface of an arc revolved about z is part of a torus,
-// (sqrt(x^2 + y^2) - r_c)^2 + (z - z_c)^2 = R^2: a quartic, solved by bracketing between the roots of
-// its derivatives. Moments are line integrals along the profile (Green), by Gauss quadrature exact
-// for edges and to round-off for arcs.
+// Spans on a line: all parameters at which the line meets the surfaces of the edges, continued
+// where that is simpler, cut it into pieces; each piece is in or out with its middle. Extra cuts do
+// no harm, so ends of edges need no care. The surface of an arc revolved about z is part of a
+// torus, (sqrt(x^2 + y^2) - r_c)^2 + (z - z_c)^2 = R^2: a quartic, solved by bracketing between the
+// roots of its derivatives. Moments are line integrals along the profile (Green), by Gauss
+// quadrature exact for edges and to round-off for arcs.
 #pragma once
 
 #include <memory>

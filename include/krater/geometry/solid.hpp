@@ -76,6 +76,10 @@ class Solid {
   /// The image under a map, for solids that know better than to map every line; null: wrap it.
   virtual std::shared_ptr<const Solid> mapped(const Affine&) const { return nullptr; }
 
+  /// Of a solid that was only moved, turned and scaled evenly as a whole: the solid before, and the
+  /// map. Else null.
+  virtual const Solid* unmapped(Affine&) const { return nullptr; }
+
   /// Throws std::invalid_argument, with the reason, if the solid has no meaning in the frame.
   virtual void require(Frame frame) const;
 
