@@ -14,7 +14,7 @@ namespace {
 constexpr double tolerance_2d = 1e-8, tolerance_3d = 5e-5;
 constexpr int greatest_depth_2d = 30, greatest_depth_3d = 14;
 /// Where both directions close in on the same corner the lines would multiply: per column at most.
-constexpr std::size_t most_lines = 400'000;
+constexpr std::size_t most_lines = 40'000;
 /// The outermost lines lie this share inside the column: a wall on its side is in or out, not both.
 constexpr double inset = 1e-9;
 

@@ -112,6 +112,11 @@ ProfileCurve::ProfileCurve(const Profile& profile) {
     const double gap = std::hypot(profile[n].u1 - next.u0, profile[n].v1 - next.v0);
     if (!(gap <= 1e-9 * size)) throw std::invalid_argument("the profile is not closed");
   }
+  // To the last bit: a gap of round-off would be a slit all through the body.
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    const ProfileEdge& next = pieces_[(n + 1) % pieces_.size()].edge;
+    pieces_[n].edge.u1 = next.u0, pieces_[n].edge.v1 = next.v0;
+  }
 }
 
 /// Arcs in pieces that are monotonic in u and v; pieces share their ends.

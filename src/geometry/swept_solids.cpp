@@ -134,6 +134,12 @@ class RevolvedSolid final : public SweptSolid {
     const double f = 4 * e.u_centre * e.u_centre, q = reach * reach;
     const double a = (d[0] * d[0] + d[1] * d[1]) * unit * unit;
     const double b = (o[0] * d[0] + o[1] * d[1]) * unit;
+    if (f == 0) {  // a sphere: the quartic would be a square, without sign changes
+      if (k > 0) return;
+      const double t = std::sqrt(-k / dd);
+      cuts.insert(cuts.end(), {nearest - t, nearest + t});
+      return;
+    }
     const Quartic c{k * k - f * (o[0] * o[0] + o[1] * o[1]), -2 * f * b, 2 * q * k - f * a, 0,
                     q * q};
     const Roots roots = real_roots(c, 4);
