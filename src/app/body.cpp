@@ -124,14 +124,16 @@ int Body::slot(const FieldInfo& field, int component) const {
 std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   LatticeOptions lattice;
   lattice.cell = scene.grid.cell;
-  lattice.points_per_direction.fill(scene.method.points_per_direction);
+  lattice.points_per_direction = options_->points.per_direction;
+  lattice.fit_to_body = options_->points.fit_to_body;
   lattice.origin = scene.grid.min;
   lattice.stagger = scene.method.stagger;
-  lattice.jitter = scene.method.jitter;
-  lattice.seed = scene.method.seed;
+  lattice.jitter = options_->points.jitter;
+  lattice.seed = options_->points.seed;
   std::vector<SeedPoint> out;
   try {
-    out = fill(*options_->solid, scene.frame, lattice, domain_box(scene), &fill_);
+    out = fill_body(*options_->solid, scene.frame, lattice, options_->points.zones,
+                    domain_box(scene), &fill_);
   } catch (const std::invalid_argument& e) {
     throw InputError(options_->where + ": " + e.what());
   }
