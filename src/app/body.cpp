@@ -4,7 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "krater/core/errors.hpp"
+#include "krater/geometry/thickness.hpp"
 #include "krater/materials/catalogue.hpp"
 
 namespace krater {
@@ -141,7 +144,30 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
     throw InputError(
         options_->where +
         ": no part of this body lies inside the grid's box; move the body or enlarge grid.box");
+  seed_moments_ = moments_of(out, scene.frame);
+  examine_thickness(scene, out);
   return out;
+}
+
+/// One cell cannot bend, shear or show a wave: what it does is not the material's doing.
+void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds) {
+  constexpr double kThinShare = 0.2, kToldShare = 0.05;
+  MirrorSides mirrors{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t side = 0; side < 2; ++side)
+      mirrors[a][side] = scene.grid.boundary[a][side].kind != BoundaryKind::open;
+  const auto thickness = [&](double share) {
+    return thickness_of_share(*options_->solid, scene.frame, seeds, domain_box(scene), mirrors,
+                              share);
+  };
+  thickness_ = thickness(kToldShare);
+  const double thin = thickness(kThinShare);
+  if (thin > scene.grid.cell * (1 + 1e-9)) return;
+  throw InputError(
+      fmt::format("{}: a fifth of this body's mass or more lies where it is {:.3g} cells thick or "
+                  "less, and one "
+                  "cell cannot bend or shear: use grid.cell {:.2g} m or smaller, or a thicker body",
+                  options_->where, thin / scene.grid.cell, thin / 3));
 }
 
 void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,

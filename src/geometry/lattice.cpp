@@ -58,6 +58,21 @@ double total_measure(const std::vector<SeedPoint>& points) {
 
 }  // namespace
 
+VolumeMoments moments_of(const std::vector<SeedPoint>& points, Frame frame) {
+  VolumeMoments sum;
+  for (const SeedPoint& p : points) {
+    if (frame != Frame::axisymmetric) {
+      add_point(sum, p.measure, to_space(frame, p.x));
+      continue;
+    }
+    add_point(sum, p.measure, {0, 0, p.x[1]});
+    sum.second[0] += 0.5 * p.measure * p.x[0] * p.x[0];
+  }
+  if (frame == Frame::axisymmetric) sum.second[1] = sum.second[0];
+  if (frame == Frame::plane_strain) sum.second[1] = sum.volume / 12;
+  return sum;
+}
+
 std::vector<SeedPoint> fill(const Solid& solid, Frame frame, const LatticeOptions& options,
                             const Box& domain, FillReport* report) {
   solid.require(frame);

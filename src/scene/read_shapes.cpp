@@ -335,7 +335,9 @@ ReadSolid read_solid(const Node& shape, Reading& reading) {
   try {
     result.solid->require(reading.scene.frame);
   } catch (const std::invalid_argument& error) {
-    reading.problems.add(shape.file, shape.line, shape.path, error.what());
+    const bool named = shape.kind == Node::Kind::map && shape.items.size() == 1;
+    const Node& place = named ? shape.items[0] : shape;
+    reading.problems.add(place.file, place.line, place.path, error.what());
   }
   return result;
 }

@@ -60,6 +60,10 @@ struct SeedPoint {
   std::array<double, 3> half_width{};
 };
 
+/// Moments of the points as they move: lumps (rings, lines of 1 m of y) without extent of their
+/// own.
+VolumeMoments moments_of(const std::vector<SeedPoint>& points, Frame frame);
+
 /// What came out. `count == 0`: nothing of the body is in the domain; `smallest_thickness_in_cells
 /// < 1`: thinner than a grid cell. Neither throws here: the caller knows the scene's file and line.
 struct FillReport {
