@@ -39,7 +39,7 @@ void print_shape(const Scene& scene, const Body& body) {
   fmt::print(
       "    inertia about it: xx {:.5g}, yy {:.5g}, zz {:.5g}, yz {:.3g}, xz {:.3g}, xy {:.3g} "
       "kg m^2\n",
-      rho * i[0], rho * i[1], rho * i[2], rho * i[3], rho * i[4], rho * i[5]);
+      rho * i[0], rho * i[1], rho * i[2], rho * i[3] + 0.0, rho * i[4] + 0.0, rho * i[5] + 0.0);
   const auto percent = [](double a, double b) { return 100 * (a / b - 1); };
   fmt::print(
       "  points - solid: mass {:+.4f} %, centroid ({:+.2g}, {:+.2g}, {:+.2g}) cells, inertia "
