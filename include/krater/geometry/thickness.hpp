@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How thick a body is where its points are: at a point, the shortest of the chords through it along
 // the grid's axes. Corners and rims of a stout body are thin too, so a share of the mass goes with
-// the figure: a fifth of a ball's mass lies where it is thinner than 0.63 diameters, all of a
+// the figure: a fifth of a ball's mass lies where it is thinner than 0.44 diameters, all of a
 // plate's where it is as thin as the plate. Oblique walls count thicker than they are, by at most
 // sqrt 3.
 #pragma once
