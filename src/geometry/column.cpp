@@ -99,6 +99,15 @@ class Sampler {
     return (a + middle * 4 + b) * (1.0 / 6);
   }
 
+  /// Do both levels of Simpson's rule agree, for their share of the column? `fine`: the better
+  /// mean.
+  bool settled(const std::array<Value, 5>& v, int depth, Value& fine) const {
+    const Value coarse = simpson(v[0], v[2], v[4]);
+    fine = (simpson(v[0], v[1], v[2]) + simpson(v[2], v[3], v[4])) * 0.5;
+    return std::ldexp(distance(coarse, fine), -depth) <= allowed() || depth == greatest_depth_ ||
+           exhausted();
+  }
+
   Row row(double x) {
     Row r;
     r.first = accepted_.size();
@@ -117,11 +126,9 @@ class Sampler {
     const double m = 0.5 * (a + b);
     const Node low = node(x, 0.5 * (a + m)), high = node(x, 0.5 * (m + b));
     const double share = std::ldexp(1.0, -depth);
-    const Value coarse = simpson(ends[0].value, ends[1].value, ends[2].value);
-    const Value fine = (simpson(ends[0].value, low.value, ends[1].value) +
-                        simpson(ends[1].value, high.value, ends[2].value)) *
-                       0.5;
-    if (distance(coarse, fine) * share <= allowed() || depth == greatest_depth_ || exhausted()) {
+    Value fine;
+    if (settled({ends[0].value, low.value, ends[1].value, high.value, ends[2].value}, depth,
+                fine)) {
       const double w = box_.length(1) * share / 12;
       accepted_.insert(accepted_.end(), {{ends[0].at, w},
                                          {low.at, 4 * w},
@@ -138,11 +145,9 @@ class Sampler {
     const double m = 0.5 * (a + b);
     const Row low = row(0.5 * (a + m)), high = row(0.5 * (m + b));
     const double share = std::ldexp(1.0, -depth);
-    const Value coarse = simpson(ends[0].value, ends[1].value, ends[2].value);
-    const Value fine = (simpson(ends[0].value, low.value, ends[1].value) +
-                        simpson(ends[1].value, high.value, ends[2].value)) *
-                       0.5;
-    if (distance(coarse, fine) * share <= allowed() || depth == greatest_depth_ || exhausted()) {
+    Value fine;
+    if (settled({ends[0].value, low.value, ends[1].value, high.value, ends[2].value}, depth,
+                fine)) {
       const double w = box_.length(0) * share / 12;
       keep(ends[0], w);
       keep(low, 4 * w);

@@ -91,11 +91,11 @@ std::vector<SeedPoint> fill(const Solid& solid, Frame frame, const LatticeOption
                             const Box& domain, FillReport* report = nullptr);
 
 /// As `fill`, with zones of more points, each piece of constant spacing filled for itself (slivers
-/// do not cross its sides), and with `fit_to_body`: the lattice then begins at a corner of the
-/// body's bounding box and its spacings divide the edges of that evenly; in 3d it runs along the
-/// body's own axes before it was turned (a body turned as a whole and not stretched), for which the
-/// domain must hold all of the body. Zones and fit_to_body exclude each other. Throws
-/// std::invalid_argument.
+/// do not cross its sides; points left lighter than a quarter go to the nearest point), and with
+/// `fit_to_body`: the lattice then begins at a corner of the body's bounding box and its spacings
+/// divide the edges of that evenly; in 3d it runs along the body's own axes before it was turned (a
+/// body turned as a whole and not stretched), for which the domain must hold all of the body. Zones
+/// and fit_to_body exclude each other. Throws std::invalid_argument.
 std::vector<SeedPoint> fill_body(const Solid& solid, Frame frame, const LatticeOptions& options,
                                  const std::vector<RefinedZone>& zones, const Box& domain,
                                  FillReport* report = nullptr);

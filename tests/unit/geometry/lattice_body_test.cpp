@@ -84,6 +84,24 @@ TEST_SUITE("unit") {
     CHECK(solid.size() > fill(*plate, Frame::cartesian_3d, cells(1), everywhere).size() * 5 / 4);
   }
 
+  TEST_CASE("points: the sides of zones leave no light points, the mass stays") {
+    for (const double offset : {0.0, 0.13, 0.31, 0.47}) {
+      const auto nose = transformed(make_ogive(1, 6, 3), Affine::move({0, 0, offset}));
+      RefinedZone zone;
+      zone.box = {{0, 3, 0}, {0.6, 7, 0}};
+      zone.points_per_direction = {4, 4, 4};
+      zone.falloff = 1;
+      const auto points = fill_body(*nose, Frame::axisymmetric, cells(0.25), {zone}, everywhere);
+      double least = 9;
+      for (const SeedPoint& p : points) {
+        least = std::min(least, p.measure / (2 * pi * p.x[0]) / (0.0625 * 0.0625));
+        CHECK(nose->contains(Frame::axisymmetric, p.x));
+      }
+      CHECK(least > 0.2);  // without the rule 0.007
+      CHECK(std::abs(total(points) / nose->moments()->volume - 1) < 1e-6);
+    }
+  }
+
   TEST_CASE("points: a lattice fitted to the body makes whole cells, also of a turned one") {
     LatticeOptions options = cells(0.7);
     options.fit_to_body = true;

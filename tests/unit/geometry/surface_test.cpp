@@ -136,6 +136,18 @@ TEST_SUITE("unit") {
     CHECK(outside == 0);
   }
 
+  TEST_CASE("surface: where the winding number is two the solid is still there once") {
+    Triangles t = box_surface({{0, 0, 0}, {2, 2, 2}});
+    append(t, box_surface({{0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}}));
+    const auto twice = make_surface_solid(t);
+    Spans found;
+    twice->spans(along_axis({1.1, 0.9, 0}, 2), found);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].low == 0);
+    CHECK(found[0].high == 2);
+    CHECK(twice->contains(1, 1, 1));
+  }
+
   TEST_CASE("surface: every defect is found, counted and placed; what can be mended is") {
     const Box unit{{0, 0, 0}, {1, 1, 1}};
     const Triangles sound = box_surface(unit);
