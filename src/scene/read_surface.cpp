@@ -46,10 +46,12 @@ std::shared_ptr<const Solid> read_surface(Block& block, Reading& reading) {
   const std::optional<std::string> name = file ? read_word(*file, reading.problems) : std::nullopt;
   const double metres = unit ? read_unit(*unit, reading) : 0;
   if (reading.problems.any() || !name) return nullptr;
-  block.record("file", string_node(*name));
-  block.record("unit", string_node(unit->text));
   namespace fs = std::filesystem;
   const fs::path path = fs::path{reading.scene.file}.parent_path() / *name;
+  // Absolute: resolved.yaml lies elsewhere than the scene.
+  std::error_code error;
+  block.record("file", string_node(fs::absolute(path, error).lexically_normal().string()));
+  block.record("unit", string_node(unit->text));
   Triangles triangles = read_triangles(path.string(), metres);
   for (const std::string& done : repair_surface(triangles, repair))
     reading.scene.notes.push_back(block.place().where() + ": " + *name + ": " + done);

@@ -170,6 +170,12 @@ def round_trip():
                    and np.array_equal(body["mass"][()], b["frames/000000"][name]["mass"][()])
                    for name, body in a["frames/000000"].items())
         check(same and len(a["frames/000000"]) == 5, "and makes the same points")
+    tetrahedron_stl("part.stl")
+    scene("stl.yaml", "{surface: {file: part.stl, unit: mm}}")
+    one = krater("check", "stl.yaml", "-o", "three")
+    two = krater("check", "three/resolved.yaml")
+    check(one.returncode == 0 and volume_of(one.stdout) == volume_of(two.stdout), "resolved.yaml finds the surface's file",
+          two.stderr)
     for frame in ("axisymmetric", "plane_strain", "3d"):
         drawn = subprocess.run([sys.executable, str(ROOT / "tools" / "plot_scene"), str(path), "--set", f"frame={frame}",
                                 "--set", "grid.cell=2 mm", "-o", f"{frame}.png"], capture_output=True, text=True,
