@@ -68,3 +68,5 @@ if(isa_check_arguments)
   list(APPEND style_tests style/isa)
 endif()
 set_tests_properties(${style_tests} PROPERTIES LABELS style TIMEOUT 120)
+
+include(${CMAKE_CURRENT_LIST_DIR}/bench/bench.cmake)

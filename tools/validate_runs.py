@@ -54,6 +54,22 @@ class Run:
                 if n not in ("limiter", "dt_limiter", "dt_limited_by")}
 
 
+class Point:
+    """A result of `krater point`: summary and columns."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+            self.summary = json.load(file)
+        with open(os.path.join(folder, "point.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        values = np.array([[float(v) for v in row] for row in rows[1:]])
+        self.columns = {title.partition(" [")[0]: values[:, k] for k, title in enumerate(rows[0])}
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+
 def digest(*paths):
     total = hashlib.sha256()
     for path in paths:
@@ -83,13 +99,9 @@ class Study:
 
     def run(self, label, settings=(), seconds=0.0, threads=1):
         """Run `label` with --set options; None if it fails or the budget does not allow it."""
-        folder = os.path.join(self.folder, "runs_out", label)
-        wanted = self.identity + " " + " ".join(settings) + "\n"
-        stamp = os.path.join(folder, "identity.txt")
-        if os.path.exists(stamp):
-            with open(stamp, encoding="utf-8") as file:
-                if file.read() == wanted:
-                    return Run(folder)
+        folder, stamp, wanted = self.place(label, settings)
+        if self.stands(stamp, wanted):
+            return Run(folder)
         if time.monotonic() - self.start + seconds > self.budget:
             self.left_out.append(label)
             return None
@@ -116,6 +128,43 @@ class Study:
         with open(stamp, "w", encoding="utf-8") as file:
             file.write(wanted)
         return Run(folder)
+
+    def place(self, label, settings):
+        """Folder of a result, its stamp, and what the stamp must say."""
+        folder = os.path.join(self.folder, "runs_out", label)
+        return folder, os.path.join(folder, "identity.txt"), self.identity + " " + " ".join(settings) + "\n"
+
+    @staticmethod
+    def stands(stamp, wanted):
+        if not os.path.exists(stamp):
+            return False
+        with open(stamp, encoding="utf-8") as file:
+            return file.read() == wanted
+
+    def point(self, label, file, settings=()):
+        """`krater point` with a file of inputs/points or text; None if it fails."""
+        path = os.path.join(ROOT, file)
+        text = "\n" in file
+        folder, stamp, wanted = self.place(label, [file if text else digest(path), *settings])
+        if self.stands(stamp, wanted):
+            return Point(folder)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        if text:
+            path = folder + ".yaml"
+            with open(path, "w", encoding="utf-8") as written:
+                written.write(file)
+        command = [self.krater, "point", path, "-o", folder, "--quiet"]
+        for setting in settings:
+            command += ["--set", setting]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            words = done.stderr.strip().splitlines()
+            self.failed.append((label, done.returncode, words[-1] if words else ""))
+            return None
+        with open(stamp, "w", encoding="utf-8") as written:
+            written.write(wanted)
+        return Point(folder)
 
     def run_all(self, jobs):
         """{label: (settings, seconds)} -> {label: Run or None}, each on one core, as many at a time as

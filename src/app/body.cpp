@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "krater/app/material_plan.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/geometry/thickness.hpp"
 #include "krater/materials/catalogue.hpp"
@@ -25,6 +26,13 @@ bool wants(const Scene& scene, const FieldInfo& field) {
 }
 
 }  // namespace
+
+bool has_wall(const Scene& scene) {
+  for (int a = 0; a < dimension(scene.frame); ++a)
+    for (const Boundary& side : scene.grid.boundary[static_cast<std::size_t>(a)])
+      if (side.kind == BoundaryKind::wall) return true;
+  return false;
+}
 
 Box domain_box(const Scene& scene) { return {scene.grid.min, scene.grid.max}; }
 
@@ -51,9 +59,14 @@ void Body::declare_method_columns(const Scene& scene) {
   const MethodOptions& m = scene.method;
   if (carries_affine(m.transfer)) layout_.state<field::AffineVelocity>(0, kMethod);
   if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
-  if (m.update == Update::musl || m.transfer == Transfer::xpic)
+  if (m.update == Update::musl || m.transfer == Transfer::xpic || m.reference != Reference::current)
     layout_.state<field::GridVelocity>(0, kMethod);
   if (m.cell_averaging) layout_.state<field::ShockIndicator>(0, kMethod);
+  if (m.reference != Reference::current) {
+    layout_.state<field::ConfigurationPosition>(0, kMethod);
+    layout_.state<field::ConfigurationMap>(0, kMethod);
+    if (has_wall(scene)) layout_.state<field::BodyAcceleration>(0, kMethod);
+  }
   if (scene.body_force) {
     layout_.state<field::BodyAcceleration>(0, kMethod);
     layout_.state<field::ReferencePosition>(0, kMethod);
@@ -67,22 +80,10 @@ void Body::declare_method_columns(const Scene& scene) {
 }
 
 void Body::add_stages(const StageFactory& factory) {
-  const auto planned = [](const std::optional<LawChoice>& choice) {
-    return choice ? PlannedLaw{choice->law, choice->values.data()} : PlannedLaw{};
-  };
-  if (material_->viscosity)
-    q_lin_ = material_->viscosity->values.at(0), q_quad_ = material_->viscosity->values.at(1);
-  MaterialPlan plan;
-  plan.constants = {material_->density, material_->shear_modulus, material_->initial_temperature};
-  plan.eos = planned(material_->eos), plan.strength = planned(material_->strength);
-  plan.damage = planned(material_->damage), plan.viscosity = planned(material_->viscosity);
-  plan.heating = planned(material_->heating);
-  plan.rate = material_->rate, plan.coupling = material_->coupling;
-  plan.degrade = material_->degrade_pressure;
+  const MaterialPlan plan = material_plan(*material_);
+  q_lin_ = plan.q_lin, q_quad_ = plan.q_quad;
   degrades_ =
       plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
-  if (material_->spall_strength) plan.spall_strength = *material_->spall_strength;
-  plan.q_lin = q_lin_, plan.q_quad = q_quad_;
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
 }
@@ -101,6 +102,9 @@ BodyKernelData Body::kernel_data() const {
   PointColumns& c = data.columns;
   c.stride = layout_.stride();
   c.local_stride = layout_.local_stride();
+  c.grid_position = state(field::ConfigurationPosition::info);
+  c.map = state(field::ConfigurationMap::info);
+  if (c.grid_position < 0) c.grid_position = state(field::Position::info);
   c.position = state(field::Position::info), c.velocity = state(field::Velocity::info);
   c.mass = state(field::Mass::info), c.density = state(field::Density::info);
   c.affine = state(field::AffineVelocity::info), c.stress = state(field::DeviatoricStress::info);
@@ -108,6 +112,7 @@ BodyKernelData Body::kernel_data() const {
   c.energy = state(field::InternalEnergy::info), c.sound_speed = state(field::SoundSpeed::info);
   c.indicator = state(field::ShockIndicator::info), c.half_width = state(field::HalfWidth::info);
   c.failed = state(field::Failed::info);
+  if (material_->failure == FailureAction::remove) c.removed = c.failed;
   c.body_acceleration = state(field::BodyAcceleration::info),
   c.grid_velocity = state(field::GridVelocity::info);
   c.local_gradient = local(field::StepGradient::info),
@@ -188,7 +193,10 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
     const auto i = static_cast<std::size_t>(a);
     set(field::Position::info, a, seed.x[i]);
     set(field::ReferencePosition::info, a, seed.x[i]);
+    set(field::ConfigurationPosition::info, a, seed.x[i]);
+    set(field::ConfigurationMap::info, (dim + 1) * a, 1.0);
     set(field::Velocity::info, a, velocity[i]);
+    set(field::GridVelocity::info, a, velocity[i]);
     set(field::HalfWidth::info, a, seed.half_width[i]);
   }
   if (options_->velocity && carries_affine(scene.method.transfer)) {

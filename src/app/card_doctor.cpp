@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/card_doctor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -86,7 +87,8 @@ void check_temperatures(const MaterialOptions& m, std::vector<std::string>& doub
 
 /// Specific heat and melting point against every metal of about this density.
 void check_handbook(const MaterialOptions& m, std::vector<std::string>& doubts) {
-  const std::optional<double> cp = parameter(m.heating, "cp");
+  std::optional<double> cp = parameter(m.heating, "cp");
+  if (!cp) cp = parameter(m.heating, "c_v");  // a few per cent apart in solids
   // Of laws with a homologous temperature: Steinberg's T_melt is that of a fit.
   const bool homologous = parameter(m.strength, "T_ref").has_value();
   const double T_melt = homologous ? parameter(m.strength, "T_melt").value_or(0) : 0;
@@ -116,7 +118,37 @@ void check_handbook(const MaterialOptions& m, std::vector<std::string>& doubts) 
 void check_tension(const MaterialOptions& m, std::vector<std::string>& doubts) {
   if (!m.eos || m.eos->name == "ideal_gas" || m.eos->name == "jwl") return;
   if (!m.strength || m.strength->name == "elastic" || m.strength->name == "drucker_prager") return;
-  doubts.push_back("no spall strength: nothing limits its tension");
+  if (m.spall_strength) return;
+  const bool offered = std::count(m.unused.begin(), m.unused.end(), "spall_strength") > 0;
+  doubts.push_back(std::string{"no spall strength: nothing limits its tension"} +
+                   (offered ? "; its card has one (spall_strength: card)" : ""));
+}
+
+/// Least fracture strain of Johnson-Cook damage over the triaxialities that a body can reach,
+/// temperatures up to melting, and rates up to 1e7 /s; where it is not positive the material has no
+/// ductility left, and only eps_f_min keeps the law alive. Each factor is monotone: corners
+/// suffice.
+void check_fracture_strain(const MaterialOptions& m, std::vector<std::string>& doubts) {
+  if (!parameter(m.damage, "D1")) return;
+  const auto D = [&](const char* key) { return parameter(m.damage, key).value_or(0); };
+  double least = HUGE_VAL, at_chi = 0, at_T = 0, at_rate = 0;
+  for (const double chi : {-1.0 / 3.0, 1.5})
+    for (const double T : {0.0, 1.0})
+      for (const double rate : {1.0, 1e7}) {
+        const double logarithm = std::log(std::max(rate / D("epsdot0"), 1.0));
+        const double strain = (D("D1") + D("D2") * std::exp(D("D3") * chi)) *
+                              (1 + D("D4") * logarithm) * (1 + D("D5") * T);
+        // Two negative factors are no ductility either.
+        const bool negative = D("D1") + D("D2") * std::exp(D("D3") * chi) <= 0 ||
+                              1 + D("D4") * logarithm <= 0 || 1 + D("D5") * T <= 0;
+        const double value = negative ? -std::fabs(strain) : strain;
+        if (value < least) least = value, at_chi = chi, at_T = T, at_rate = rate;
+      }
+  if (least <= 0)
+    doubts.push_back(fmt::format(
+        "the fracture strain is {:.3g} at triaxiality {:.2g}, T* = {:g}, {:.0e} /s: not positive; "
+        "eps_f_min = {:g} is what runs there",
+        least, at_chi, at_T, at_rate, D("eps_f_min")));
 }
 
 }  // namespace
@@ -137,6 +169,7 @@ std::vector<std::string> examine(const MaterialOptions& material) {
   check_temperatures(material, doubts);
   check_handbook(material, doubts);
   check_tension(material, doubts);
+  check_fracture_strain(material, doubts);
   return doubts;
 }
 

@@ -66,8 +66,35 @@ void print_body(const Simulation& sim, const Body& body, int index) {
   fmt::print("\n");
 }
 
+/// The largest speed at which a body meets another, its mirror image in a symmetry plane, or a
+/// moving plane, by the bodies' mean velocities; at least the speed of the fastest (walls, still
+/// targets).
+double closing_speed(const Simulation& sim, double fastest) {
+  double closing = fastest;
+  const auto mean_velocity = [&](std::size_t body) {
+    const Totals t = sim.totals(static_cast<int>(body));
+    Triple v{};
+    for (std::size_t k = 0; k < 3; ++k) v[k] = t.mass > 0 ? t.momentum[k] / t.mass : 0;
+    return v;
+  };
+  for (std::size_t a = 0; a < sim.bodies().size(); ++a) {
+    const Triple v = mean_velocity(a);
+    for (std::size_t b = 0; b < a; ++b) {
+      const Triple w = mean_velocity(b);
+      closing = std::max(closing, std::hypot(v[0] - w[0], v[1] - w[1], v[2] - w[2]));
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const Boundary& plane : sim.scene().grid.boundary[k]) {
+        if (plane.kind == BoundaryKind::symmetry) closing = std::max(closing, 2 * std::fabs(v[k]));
+        if (plane.kind == BoundaryKind::velocity)
+          closing = std::max(closing, std::fabs(v[k] - plane.velocity[k]));
+      }
+  }
+  return closing;
+}
+
 /// Impact regime by velocity and stress (BUSH, after Zukas): what a scene of this speed needs.
-void print_advice(const Scene& scene, double fastest) {
+void print_advice(const Scene& scene, double fastest, double closing) {
   for (const MaterialOptions& m : scene.materials) {
     if (fastest > 500 && m.eos && m.eos->name == "linear")
       fmt::print(
@@ -82,9 +109,11 @@ void print_advice(const Scene& scene, double fastest) {
                  m.name);
     if (fastest > 100 && m.strength && m.strength->name == "johnson_cook" && !m.heating)
       fmt::print("advice: {}: johnson_cook without heating: no thermal softening\n", m.name);
-    if (fastest > 2000 && m.heating)
-      fmt::print("advice: {}: plastic_work heating misses shock heating above 2 km/s (theory 8)\n",
-                 m.name);
+    if (closing > 2000 && m.heating && m.heating->name == "plastic_work")
+      fmt::print(
+          "advice: {}: impact at {:.0f} m/s: plastic_work misses the heat of the shock (theory 8); "
+          "heating: {{energy: {{c_v: ...}}}} sees it\n",
+          m.name, closing);
   }
 }
 
@@ -135,7 +164,11 @@ void print_check(const RunOptions& options) {
              1e-6 * sim.bytes_per_point() * static_cast<double>(sim.point_count()),
              work / (dimension(scene.frame) == 3 ? kRate3d : kRate2d));
   if (!options.output.empty()) write_start(sim, options.output);
-  print_advice(scene, fastest);
+  print_advice(scene, fastest, closing_speed(sim, fastest));
+  for (const MaterialOptions& m : scene.materials)
+    for (const std::string& key : m.unused)
+      fmt::print("note: {}: its card holds {}, which this scene does not use ({}: card)\n", m.name,
+                 key, key);
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
 }

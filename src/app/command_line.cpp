@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "krater/app/point.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/version.hpp"
@@ -26,12 +27,18 @@ void add_scene_options(CLI::App* command, RunOptions& options) {
       ->allow_extra_args(false);
 }
 
-int dispatch(const CLI::App& run_command, const CLI::App& check_command, const RunOptions& options,
-             const std::string& model) {
+/// Subcommands of the command line.
+struct Commands {
+  const CLI::App &run, &check, &point;
+};
+
+int dispatch(const Commands& commands, const RunOptions& options, const std::string& model) {
   try {
-    if (run_command.parsed()) return run(options);
-    if (check_command.parsed())
+    if (commands.run.parsed()) return run(options);
+    if (commands.check.parsed())
       print_check(options);
+    else if (commands.point.parsed())
+      run_point(options);
     else
       print_models(model.empty() ? nullptr : model.c_str());
     if (std::fflush(stdout) == 0) return kDone;
@@ -92,6 +99,10 @@ int command_line(int argc, char** argv) {
   check_command->add_option("-o,--output", options.output,
                             "also write the points at the start into this folder "
                             "(tools/plot_scene draws them)");
+  CLI::App* point_command = app.add_subcommand("point", "take one material through a loading path");
+  add_scene_options(point_command, options);
+  point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");
+  point_command->add_flag("--quiet", options.quiet, "no table, no notes");
   CLI::App* models_command =
       app.add_subcommand("models", "list the material laws, or describe one");
   models_command->add_option("name", model, "law");
@@ -101,7 +112,7 @@ int command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kDone : kBadInput;
   }
-  return dispatch(*run_command, *check_command, options, model);
+  return dispatch({*run_command, *check_command, *point_command}, options, model);
 }
 
 }  // namespace krater

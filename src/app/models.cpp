@@ -38,6 +38,10 @@ void print_law(const LawInfo& law) {
                  words.at(static_cast<std::size_t>(p.fallback)), p.meaning);
     }
   }
+  if (law.family == "damage")
+    fmt::print(
+        "  a material card may hold this block: it is used only where the scene's material says\n"
+        "  `damage: card`, or lays its own damage block over the card's\n");
 }
 
 }  // namespace

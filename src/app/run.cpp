@@ -256,11 +256,16 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
   results_.flush();
-  const double gone = sim_.audit().removed_points;
-  if (gone > 0 && !options_.quiet)
+  const Audit& audit = sim_.audit();
+  const double all = audit.removed_points + static_cast<double>(sim_.point_count());
+  const double left = audit.removed_points - audit.removed_failed;
+  if (left > 0 && !options_.quiet)
     say(fmt::format(
-        "krater: note: {:.0f} of {:.0f} points left the domain (grid.box) and were removed", gone,
-        gone + static_cast<double>(sim_.point_count())));
+        "krater: note: {:.0f} of {:.0f} points left the domain (grid.box) and were removed", left,
+        all));
+  if (audit.removed_failed > 0 && !options_.quiet)
+    say(fmt::format("krater: note: {:.0f} of {:.0f} points failed and were removed",
+                    audit.removed_failed, all));
   if (!options_.quiet)
     say(fmt::format("krater: {} after {} steps, results in {}", status, sim_.steps(),
                     results_.path()));

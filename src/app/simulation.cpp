@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -63,7 +64,9 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       level_{level},
       geometry_{make_geometry(scene)},
       grid_{geometry_},
-      boundary_{geometry_, scene.grid.boundary} {
+      boundary_{geometry_, scene.grid.boundary, scene.method.reference != Reference::current},
+      contact_{geometry_, scene.grid.boundary, scene.frame == Frame::axisymmetric,
+               scene.method.shape == Shape::linear, scene.contact} {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     bodies_.push_back(std::make_unique<Body>(scene, static_cast<int>(b), stage_factory(level)));
     kernel_data_.push_back(bodies_.back()->kernel_data());
@@ -71,10 +74,18 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   const bool affine =
       scene.method.transfer == Transfer::tflip || scene.method.transfer == Transfer::apic;
   const auto make = kernel_factory(level).make;
-  kernels_.reset(make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), affine));
-  plain_kernels_.reset(make(kernel_frame(scene.frame), kernel_shape(scene.method.shape), false));
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, *kernels_, *plain_kernels_,
-                                    kernel_data_);
+  KernelChoice choice{kernel_frame(scene.frame), kernel_shape(scene.method.shape), affine,
+                      scene.method.reference != Reference::current};
+  kernels_.reset(make(choice));
+  choice.affine = choice.fixed_reference;
+  plain_kernels_.reset(make(choice));
+  if (choice.fixed_reference || scene.contact.active) {  // a velocity field for each body
+    std::vector<int> fields(bodies_.size());
+    std::iota(fields.begin(), fields.end(), 0);
+    grid_.set_fields(std::move(fields));
+  }
+  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, contact_, *kernels_,
+                                    *plain_kernels_, kernel_data_);
   place_points();
   choose_first_step();
   const Totals start = totals();
@@ -190,8 +201,9 @@ double Simulation::next_step(double until) {
 }
 
 void Simulation::step(double until) {
-  if (scene_.body_force) apply_body_force();
   const double asked = next_step(until);
+  if (scene_.body_force) apply_body_force();
+  const std::array<double, 3> wall_force = apply_point_walls(asked);
   try {
     dt_ = step_->advance(asked);
   } catch (const StepFault& fault) {
@@ -201,6 +213,7 @@ void Simulation::step(double until) {
     throw NumericalError(text);
   }
   if (dt_ < asked) dt_free_ = dt_;
+  if (walls_act_on_points()) step_->audit().book_point_walls(wall_force, dt_, !scene_.body_force);
   ++steps_;
   const bool reached = dt_ == asked && asked == until - time_;
   time_ = reached ? until : time_ + dt_;
@@ -208,6 +221,23 @@ void Simulation::step(double until) {
   const int p = step_->limiting_patch();
   if (p >= 0 && p < static_cast<int>(grid_.patches.size()))
     limiter_kind_ = grid_.patches[static_cast<std::size_t>(p)].result.limiter;
+}
+
+bool Simulation::walls_act_on_points() const {
+  return scene_.method.reference != Reference::current && has_wall(scene_);
+}
+
+std::array<double, 3> Simulation::apply_point_walls(double dt) {
+  if (!walls_act_on_points()) return {};
+  if (!scene_.body_force)
+    for (Patch& patch : grid_.patches) {
+      const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+      for (int i = 0; i < patch.count; ++i)
+        for (int a = 0; a < geometry_.dimension; ++a)
+          component(patch, c.stride, c.body_acceleration + kLanes * a, i) = 0;
+    }
+  const double spacing = geometry_.h / scene_.method.points_per_direction;
+  return push_from_walls(grid_, kernel_data_, boundary_, spacing, dt);
 }
 
 void Simulation::apply_body_force() {

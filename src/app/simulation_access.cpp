@@ -9,8 +9,6 @@
 
 namespace krater {
 
-namespace {
-
 const char* text_of(FaultKind kind) {
   switch (kind) {
     case FaultKind::not_finite_input:
@@ -30,6 +28,8 @@ const char* text_of(FaultKind kind) {
   }
   return "unknown";
 }
+
+namespace {
 
 /// A state means nothing on another grid.
 std::vector<double> grid_identity(Frame frame, const GridGeometry& g) {
@@ -106,9 +106,14 @@ Totals Simulation::totals(int body) const {
       // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
       t.angular_momentum +=
           m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
-      if (c.affine >= 0)
-        t.angular_momentum +=
-            m * 0.25 * geometry_.h * geometry_.h * (at(c.affine, dim) - at(c.affine, 1));
+      if (c.affine < 0) continue;
+      // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
+      const auto F = [&](int k, int a) {
+        return c.map >= 0 ? at(c.map, dim * k + a) : (k == a ? 1.0 : 0.0);
+      };
+      for (int a = 0; a < dim; ++a)
+        t.angular_momentum += m * 0.25 * geometry_.h * geometry_.h *
+                              (F(0, a) * at(c.affine, dim + a) - F(1, a) * at(c.affine, a));
     }
   }
   return t;

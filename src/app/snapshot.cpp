@@ -171,6 +171,7 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
         a.wall_impulse[static_cast<std::size_t>(k)]);
   add(row, "angular_momentum", "kg m^2/s", t.angular_momentum);
   add(row, "removed_points", "1", a.removed_points);
+  add(row, "removed_mass", "kg", a.removed_mass);
   add(row, "wall_columns", "1", a.wall_columns);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
@@ -198,6 +199,8 @@ Json audit_json(const Simulation& sim) {
   j["internal_work"] = Json::of(a.internal_work);
   j["external_work"] = Json::of(a.external_work);
   j["wall_work"] = Json::of(a.wall_work);
+  j["contact_work"] = Json::of(a.contact_work);
+  j["friction_work"] = Json::of(a.friction_work);
   j["transfer_in"] = Json::of(a.transfer_in);
   j["transfer_out"] = Json::of(a.transfer_out);
   j["time_centring"] = Json::of(a.time_centring);
@@ -211,15 +214,18 @@ Json audit_json(const Simulation& sim) {
     const std::string axis{axis_name(sim.scene().frame, k)};
     j["momentum_" + axis] = Json::of(t.momentum[static_cast<std::size_t>(k)]);
     j["wall_impulse_" + axis] = Json::of(a.wall_impulse[static_cast<std::size_t>(k)]);
+    j["removed_momentum_" + axis] = Json::of(a.removed_momentum[static_cast<std::size_t>(k)]);
   }
   j["angular_momentum"] = Json::of(t.angular_momentum);
   Json events;
   events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));
+  events["removed_failed_points"] = Json::of(static_cast<std::int64_t>(a.removed_failed));
   events["sound_speed_floors"] = Json::of(static_cast<std::int64_t>(a.sound_speed_floors));
   events["hugoniot_poles"] = Json::of(static_cast<std::int64_t>(a.hugoniot_poles));
   events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));
   events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
   events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
+  events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
   events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
   events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
   j["events"] = events;

@@ -39,22 +39,14 @@ BlockKey block_of(const GridGeometry& geometry, const double* position) {
 }
 
 int BlockGrid::find_patch(const BlockKey& key, int body) const {
-  const auto at = std::lower_bound(
-      patches.begin(), patches.end(), key,
-      [body](const Patch& p, const BlockKey& k) { return p.key != k ? p.key < k : p.body < body; });
-  return at != patches.end() && at->key == key && at->body == body
-             ? static_cast<int>(at - patches.begin())
-             : -1;
+  return patch_index_.find(key, body);
 }
 
-int BlockGrid::find_node_block(const BlockKey& key) const {
-  const auto at = std::lower_bound(node_blocks.begin(), node_blocks.end(), key,
-                                   [](const NodeBlock& n, const BlockKey& k) { return n.key < k; });
-  return at != node_blocks.end() && at->key == key ? static_cast<int>(at - node_blocks.begin())
-                                                   : -1;
+int BlockGrid::find_node_block(const BlockKey& key, int field) const {
+  return node_index_.find(key, field);
 }
 
-double* BlockGrid::find_node(const std::array<int, 3>& storage_index) const {
+double* BlockGrid::find_node(const std::array<int, 3>& storage_index, int field) const {
   const int edge = block_edge(geometry_.dimension);
   BlockKey key;
   int local = 0;
@@ -64,7 +56,7 @@ double* BlockGrid::find_node(const std::array<int, 3>& storage_index) const {
     key.i[static_cast<std::size_t>(a)] = block;
     local = local * edge + (i - block * edge);
   }
-  const int n = find_node_block(key);
+  const int n = find_node_block(key, field);
   return n < 0 ? nullptr : node_blocks[static_cast<std::size_t>(n)].nodes + kNodeDoubles * local;
 }
 
@@ -72,53 +64,71 @@ void BlockGrid::rebuild(bool drop_empty) {
   if (drop_empty) std::erase_if(patches, [](const Patch& p) { return p.count == 0; });
   if (!std::is_sorted(patches.begin(), patches.end(), before))
     std::sort(patches.begin(), patches.end(), before);
+  for (Patch& p : patches)
+    p.field = static_cast<std::size_t>(p.body) < field_of_body_.size()
+                  ? field_of_body_[static_cast<std::size_t>(p.body)]
+                  : 0;
   make_node_blocks();
   link_patches();
 }
 
 void BlockGrid::make_node_blocks() {
   const int dimension = geometry_.dimension, corners = corner_count(dimension);
-  struct Overlap {
-    BlockKey key;
-    TileRef tile;
-  };
-  std::vector<Overlap> overlaps;
-  overlaps.reserve(patches.size() * static_cast<std::size_t>(corners));
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    for (int c = 0; c < corners; ++c)
-      overlaps.push_back({at_corner(patches[p].key, c, 1, dimension), {static_cast<int>(p), c}});
-  std::stable_sort(overlaps.begin(), overlaps.end(),
-                   [](const Overlap& a, const Overlap& b) { return a.key < b.key; });
-
   node_blocks.clear();
-  tile_refs.clear();
-  for (const Overlap& o : overlaps) {
-    if (node_blocks.empty() || node_blocks.back().key != o.key) {
-      node_blocks.emplace_back();
-      node_blocks.back().key = o.key;
-      node_blocks.back().first_tile = static_cast<int>(tile_refs.size());
+  node_index_.clear(patches.size() * static_cast<std::size_t>(corners));
+  for (const Patch& patch : patches)
+    for (int c = 0; c < corners; ++c) {
+      const BlockKey key = at_corner(patch.key, c, 1, dimension);
+      if (node_index_.find(key, patch.field) >= 0) continue;
+      node_index_.insert(key, patch.field, static_cast<int>(node_blocks.size()));
+      NodeBlock& block = node_blocks.emplace_back();
+      block.key = key;
+      block.field = patch.field;
     }
-    tile_refs.push_back(o.tile);
-    ++node_blocks.back().tiles;
-  }
+  std::sort(node_blocks.begin(), node_blocks.end(), [](const NodeBlock& a, const NodeBlock& b) {
+    return a.key != b.key ? a.key < b.key : a.field < b.field;
+  });
   constexpr std::size_t per_block = kBlockNodes * kNodeDoubles;
   node_memory_.reserve(node_blocks.size() * per_block);
-  for (std::size_t n = 0; n < node_blocks.size(); ++n)
+  node_index_.clear(node_blocks.size());
+  for (std::size_t n = 0; n < node_blocks.size(); ++n) {
     node_blocks[n].nodes = node_memory_.data() + n * per_block;
+    node_index_.insert(node_blocks[n].key, node_blocks[n].field, static_cast<int>(n));
+  }
 }
 
+// The tiles of a node block stand in the order of their patches; that order fixes its sums.
 void BlockGrid::link_patches() {
-  const int dimension = geometry_.dimension;
+  const int dimension = geometry_.dimension, corners = corner_count(dimension);
+  patch_index_.clear(patches.size());
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    patch_index_.insert(patches[p].key, patches[p].body, static_cast<int>(p));
   for (Patch& patch : patches) {
     patch.tile.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles);
     patch.beta.reserve(kBlockNodes);
-    for (int c = 0; c < corner_count(dimension); ++c)
-      patch.node_blocks[static_cast<std::size_t>(c)] =
-          find_node_block(at_corner(patch.key, c, 1, dimension));
+    for (int c = 0; c < corners; ++c) {
+      const int n = find_node_block(at_corner(patch.key, c, 1, dimension), patch.field);
+      patch.node_blocks[static_cast<std::size_t>(c)] = n;
+      ++node_blocks[static_cast<std::size_t>(n)].tiles;
+    }
     for (int s = 0; s < neighbour_count(dimension); ++s)
       patch.neighbours[static_cast<std::size_t>(s)] =
           find_patch(shifted(patch.key, s, dimension), patch.body);
   }
+  int first = 0;
+  for (NodeBlock& block : node_blocks) {
+    block.first_tile = first;
+    first += block.tiles;
+    block.tiles = 0;
+  }
+  tile_refs.resize(static_cast<std::size_t>(first));
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (int c = 0; c < corners; ++c) {
+      NodeBlock& block = node_blocks[static_cast<std::size_t>(
+          patches[p].node_blocks[static_cast<std::size_t>(c)])];
+      tile_refs[static_cast<std::size_t>(block.first_tile + block.tiles++)] = {static_cast<int>(p),
+                                                                               c};
+    }
 }
 
 }  // namespace krater

@@ -31,12 +31,20 @@ struct Assembler {
         factory.make(law.law, law.values, plan.constants, layout));
   }
 
+  bool degrades() const {
+    return plan.damage.law >= 0 &&
+           law_degrades(plan.damage.law, plan.damage.values, plan.constants);
+  }
+  bool carries() const { return plan.damage.law >= 0 || std::isfinite(plan.spall_strength); }
+
   void add_part(Part part, const PlannedLaw& law, const std::string& name) {
     add(name, factory.part({.part = part,
                             .law = law.law,
                             .values = law.values,
                             .constants = plan.constants,
                             .rate = plan.rate,
+                            .damaged = plan.damage.law >= 0,
+                            .degrades = degrades(),
                             .degrade = plan.degrade},
                            layout));
   }
@@ -45,8 +53,8 @@ struct Assembler {
     const bool yields = info(plan.strength).yields, damaged = plan.damage.law >= 0;
     const std::string strength = "strength: " + info(plan.strength).name,
                       damage = damaged ? "damage: " + info(plan.damage).name : "";
-    add_part(Part::trial, plan.damage,
-             std::string{"rate: "} + kRateNames[static_cast<int>(plan.rate)]);
+    add_part(Part::start, plan.strength, "start of the step");
+    add_part(Part::trial, {}, std::string{"rate: "} + kRateNames[static_cast<int>(plan.rate)]);
     if (damaged && plan.coupling == Coupling::rate) {
       add_part(Part::flow_stress, plan.strength, strength + " (flow stress)");
       add_part(Part::growth, plan.damage, damage);
@@ -55,7 +63,27 @@ struct Assembler {
       if (yields) add_part(Part::plastic_return, plan.strength, strength);
       if (damaged) add_part(Part::growth, plan.damage, damage);
     }
-    add_part(Part::carried, plan.damage, "carried stress");
+    add_part(Part::carried, {}, "carried stress");
+  }
+
+  void add_eos() {
+    if (plan.eos.law < 0 || !carries()) return add_law(plan.eos);
+    add("eos: " + info(plan.eos).name + ", carried",
+        factory.carrying_eos(plan.eos.law, plan.eos.values, plan.constants, plan.spall_strength,
+                             layout));
+  }
+
+  void add_heating() {
+    if (plan.heating.law < 0 || !info(plan.heating).needs_eos) return add_law(plan.heating);
+    const bool limited = layout.find(field::VoidVolume::info.name) != nullptr;
+    add("heating: " + info(plan.heating).name,
+        factory.energy_heating({.eos = plan.eos.law,
+                                .eos_values = plan.eos.values,
+                                .c_v = plan.heating.values[0],
+                                .constants = plan.constants,
+                                .carries = carries() || limited,
+                                .degrades = degrades()},
+                               layout));
   }
 };
 
@@ -76,14 +104,8 @@ std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialP
   } else {
     all.add_law(plan.strength);
   }
-  if (plan.eos.law >= 0 && (plan.damage.law >= 0 || std::isfinite(plan.spall_strength))) {
-    all.add("eos: " + info(plan.eos).name + ", carried",
-            factory.carrying_eos(plan.eos.law, plan.eos.values, plan.constants, plan.spall_strength,
-                                 layout));
-  } else {
-    all.add_law(plan.eos);
-  }
-  all.add_law(plan.heating);
+  all.add_eos();
+  all.add_heating();
   all.add("signal speed", factory.signal_speed(plan.q_lin, plan.q_quad, layout));
   return std::move(all.stages);
 }

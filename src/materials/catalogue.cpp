@@ -15,15 +15,16 @@ LawInfo describe() {
                .equation = Law::equation,
                .reference = Law::reference,
                .needs_shear_modulus = false,
-               .in_parts = Yielding<Law> && !ReadsPressure<Law> && !VariesShear<Law>,
                .whole_stress = false,
-               .yields = Yielding<Law>};
+               .yields = Yielding<Law>,
+               .needs_eos = false};
   if constexpr (parameter_count < Law >> 0) {
     for (const Parameter<Law>& p : Law::parameters) info.parameters.push_back(p.info);
   }
   if constexpr (requires { Law::needs_shear_modulus; }) {
     info.needs_shear_modulus = Law::needs_shear_modulus;
   }
+  if constexpr (requires { Law::needs_eos; }) info.needs_eos = Law::needs_eos;
   if constexpr (requires { Law::whole_stress; }) info.whole_stress = Law::whole_stress;
   return info;
 }
@@ -46,6 +47,16 @@ bool degrades_of(const double* values, const MaterialConstants& constants) {
   }
 }
 
+template <class Law>
+std::optional<double> thermal_energy_of(const double* values, const MaterialConstants& constants) {
+  if constexpr (requires(const Law& law) { law.thermal_energy(); }) {
+    return make_law<Law>(values, constants).thermal_energy();
+  } else {
+    return std::nullopt;
+  }
+}
+
+using ThermalEnergy = std::optional<double> (*)(const double*, const MaterialConstants&);
 using Degrades = bool (*)(const double*, const MaterialConstants&);
 using Problem = const char* (*)(const double*, const MaterialConstants&);
 
@@ -56,6 +67,10 @@ std::vector<LawInfo> describe_all(LawList<Laws...>) {
 template <class... Laws>
 std::vector<Problem> problems_of(LawList<Laws...>) {
   return {&problem_of<Laws>...};
+}
+template <class... Laws>
+std::vector<ThermalEnergy> thermal_energies(LawList<Laws...>) {
+  return {&thermal_energy_of<Laws>...};
 }
 template <class... Laws>
 std::vector<Degrades> all_degrades(LawList<Laws...>) {
@@ -100,6 +115,12 @@ std::vector<std::string> parameter_words(const ParameterInfo& info) {
 bool law_degrades(int law, const double* values, const MaterialConstants& constants) {
   static const std::vector<Degrades> degrades = all_degrades(AllLaws{});
   return degrades.at(static_cast<std::size_t>(law))(values, constants);
+}
+
+std::optional<double> thermal_energy_at_start(int law, const double* values,
+                                              const MaterialConstants& constants) {
+  static const std::vector<ThermalEnergy> energies = thermal_energies(AllLaws{});
+  return energies.at(static_cast<std::size_t>(law))(values, constants);
 }
 
 const char* law_problem(int law, const double* values, const MaterialConstants& constants) {

@@ -9,6 +9,7 @@
 #include "output/checkpoint.hpp"
 #include "output/frames.hpp"
 #include "output/history.hpp"
+#include "output/table.hpp"
 
 namespace krater {
 
@@ -34,7 +35,7 @@ struct ResultsFolder::Impl {
     } else {
       frames.remove_all();
       history.remove_all();
-      for (const char* name : {"checkpoint.h5", "summary.json"}) {
+      for (const char* name : {"checkpoint.h5", "summary.json", "point.csv", "point.h5"}) {
         fs::remove(path + "/" + name, error);
         fs::remove(path + "/" + name + output::kPartSuffix, error);
       }
@@ -89,6 +90,11 @@ void ResultsFolder::write_history(const std::vector<Quantity>& row) {
 void ResultsFolder::write_checkpoint(const Checkpoint& checkpoint) {
   impl_->prepare();
   output::save_checkpoint(impl_->path + "/checkpoint.h5", checkpoint, impl_->attributes);
+}
+
+void ResultsFolder::write_table(const std::string& name, const std::vector<TableColumn>& columns) {
+  impl_->prepare();
+  output::save_table(impl_->path + "/" + name, columns, impl_->attributes);
 }
 
 void ResultsFolder::write_summary(const Json& summary) {

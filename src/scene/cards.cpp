@@ -71,25 +71,88 @@ std::string find_card(const Node& card, const std::string& scene_file, Problems&
   return "";
 }
 
+/// Keys of a card that count only where the scene asks for them.
+constexpr const char* kOnRequest[] = {"damage", "spall_strength"};
+
+bool takes_card(const Node* node) {
+  return node != nullptr && node->kind == Node::Kind::scalar && node->text == "card";
+}
+
+void erase_member(Node& map, const std::string& key) {
+  std::erase_if(map.items, [&](const Node& item) { return item.key == key; });
+}
+
+/// Names of the cards that hold a key.
+std::vector<std::string> cards_with(const std::string& key, const fs::path& scene_folder) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : card_folders(scene_folder)) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator{folder, error}) {
+      if (entry.path().extension() != ".yaml") continue;
+      Problems ignored;
+      try {
+        if (read_yaml_file(entry.path().string(), "", ignored).find(key) != nullptr)
+          names.push_back(entry.path().stem().string());
+      } catch (const InputError&) {
+        continue;  // not a card
+      }
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// `key: card` where the card, if there is one, has no such key.
+void report_not_in_card(const Node& asked, const std::string& key, const std::string& card,
+                        const std::string& scene_file, Problems& problems) {
+  std::string known;
+  for (const std::string& name : cards_with(key, fs::path{scene_file}.parent_path()))
+    known += (known.empty() ? "" : ", ") + name;
+  problems.add(asked.file, asked.line, asked.path,
+               (card.empty() ? "'card' takes it from the material's card, and there is none (card: "
+                               "NAME)"
+                             : "the card " + quote(card) + " has no " + key) +
+                   "; spell it out here" + (known.empty() ? "" : "; cards that have it: " + known));
+}
+
 }  // namespace
 
-Node with_card(const Node& material, const std::string& scene_file, Problems& problems) {
+CardedMaterial with_card(const Node& material, const std::string& scene_file, Problems& problems) {
   const Node* card = material.find("card");
-  if (!card) return material;
+  Node own = material;
+  for (const char* key : kOnRequest) {
+    const Node* asked = material.find(key);
+    if (card == nullptr && takes_card(asked))
+      report_not_in_card(*asked, key, "", scene_file, problems);
+  }
+  if (!card) return {material, {}};
   if (card->kind != Node::Kind::scalar || card->text.empty()) {
     problems.add(card->file, card->line, card->path,
                  "expected the name or path of a card, found " + card->kind_name());
-    return material;
+    return {material, {}};
   }
   const std::string file = find_card(*card, scene_file, problems);
-  if (file.empty()) return material;
-  Node whole = read_yaml_file(file, material.path, problems);
+  if (file.empty()) return {material, {}};
+  CardedMaterial result{read_yaml_file(file, material.path, problems), {}};
+  Node& whole = result.block;
   whole.key = material.key;
   if (const Node* nested = whole.find("card")) {
     problems.add(nested->file, nested->line, nested->path, "a card cannot name another card");
   }
-  overlay(whole, material);
-  return whole;
+  for (const char* key : kOnRequest) {
+    const Node* asked = material.find(key);
+    const bool offered = whole.find(key) != nullptr;
+    if (takes_card(asked)) {
+      if (!offered) report_not_in_card(*asked, key, card->text, scene_file, problems);
+      erase_member(own, key);
+    } else if (asked == nullptr && offered) {
+      result.unused.emplace_back(key);
+      erase_member(whole, key);
+    }
+  }
+  overlay(whole, own);
+  return result;
 }
 
 }  // namespace krater::scene

@@ -57,6 +57,42 @@ void check_method(Reading& reading) {
   }
 }
 
+/// A fixed reference has one sweep, and no grid that bodies share.
+void check_reference(Reading& reading) {
+  const MethodOptions& method = reading.scene.method;
+  if (method.reference == Reference::current) return;
+  if (method.update != Update::usl || method.transfer == Transfer::xpic)
+    fail("method.reference",
+         "only reference: current works with update musl or usf or with transfer xpic; use update: "
+         "usl and transfer tflip, flip or apic",
+         reading);
+  if (reading.scene.bodies.size() > 1)
+    reading.scene.notes.push_back(
+        "method.reference: every body has a reference grid of its own: bodies pass through each "
+        "other; use reference: current where they should meet");
+}
+
+void check_contact(Reading& reading) {
+  Scene& scene = reading.scene;
+  if (!scene.contact.active) {
+    if (scene.bodies.size() > 1 && scene.method.reference == Reference::current)
+      scene.notes.push_back(
+          "no contact block: the bodies share one velocity field and stick where they meet; "
+          "contact: {friction: 0} lets them push, slide and part");
+    return;
+  }
+  if (scene.bodies.size() < 2)
+    scene.notes.push_back("contact: there is one body; a body has no contact with itself");
+  if (scene.method.reference != Reference::current)
+    fail("contact",
+         "contact needs method.reference: current; a fixed reference grid knows one body", reading);
+  if (scene.method.transfer == Transfer::xpic)
+    fail("contact",
+         "contact does not go with transfer xpic: its filter would undo the impulses; "
+         "use tflip, flip or apic",
+         reading);
+}
+
 /// A body that sticks out of the domain loses what is outside: meant at a plane of symmetry, else
 /// worth saying.
 void check_sides(const BodyOptions& body, Reading& reading) {
@@ -137,6 +173,8 @@ void check_overlap(const BodyOptions& a, const BodyOptions& b, Reading& reading)
 void check_scene(Reading& reading) {
   Scene& scene = reading.scene;
   check_method(reading);
+  check_reference(reading);
+  check_contact(reading);
   double points = 0;
   std::vector<bool> used(scene.materials.size(), false);
   for (const BodyOptions& body : scene.bodies) {

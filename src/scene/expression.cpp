@@ -41,30 +41,37 @@ void refuse_statements(const std::string& text) {
   if (text.size() > kLongestExpression) throw InputError("the expression is too long");
 }
 
+/// Sets the parser's variables and expression; throws InputError where it is none.
+template <class Define>
+void compile(mu::Parser& parser, const std::string& text, const std::string& known,
+             const Define& define) {
+  refuse_statements(text);
+  try {
+    define(parser);
+    parser.SetExpr(text);
+    for (const auto& [name, address] : parser.GetUsedVar()) {
+      if (address == nullptr)
+        throw InputError("unknown variable '" + name + "' (known: " + known + ")");
+    }
+    int results = 0;
+    parser.Eval(results);
+    if (results != 1)
+      throw InputError(scene::quote(text) + " has " + std::to_string(results) + " values");
+  } catch (const mu::Parser::exception_type& error) {
+    throw InputError(scene::quote(text) +
+                     " is neither a number nor an expression: " + error.GetMsg());
+  }
+}
+
 class ExpressionField final : public FieldFunction {
  public:
   ExpressionField(Frame frame, const std::vector<std::string>& components) : frame_{frame} {
     for (const std::string& text : components) {
-      refuse_statements(text);
       parsers_.push_back(std::make_unique<mu::Parser>());
-      mu::Parser& parser = *parsers_.back();
-      try {
-        define(parser);
-        parser.SetExpr(text);
-        for (const auto& [name, address] : parser.GetUsedVar()) {
-          if (address == nullptr)
-            throw InputError("unknown variable '" + name +
-                             "' (known: x, y, z, r, X, Y, Z, R, t, pi)");
-          depends_on_time_ = depends_on_time_ || name == "t";
-        }
-        int results = 0;
-        parser.Eval(results);
-        if (results != 1)
-          throw InputError(scene::quote(text) + " has " + std::to_string(results) + " values");
-      } catch (const mu::Parser::exception_type& error) {
-        throw InputError(scene::quote(text) +
-                         " is neither a number nor an expression: " + error.GetMsg());
-      }
+      compile(*parsers_.back(), text, "x, y, z, r, X, Y, Z, R, t, pi",
+              [this](mu::Parser& parser) { define(parser); });
+      for (const auto& used : parsers_.back()->GetUsedVar())
+        depends_on_time_ = depends_on_time_ || used.first == "t";
     }
   }
 
@@ -119,6 +126,22 @@ std::shared_ptr<const FieldFunction> make_constant_field(const Triple& value) {
 std::shared_ptr<const FieldFunction> make_expression_field(
     Frame frame, const std::vector<std::string>& components) {
   return std::make_shared<ExpressionField>(frame, components);
+}
+
+std::function<double(double)> make_time_function(const std::string& expression) {
+  struct Compiled {
+    double t = 0;
+    mu::Parser parser;
+  };
+  const auto compiled = std::make_shared<Compiled>();
+  compile(compiled->parser, expression, "t, pi", [&](mu::Parser& parser) {
+    parser.DefineVar("t", &compiled->t);
+    parser.DefineConst("pi", std::numbers::pi);
+  });
+  return [compiled](double t) {
+    compiled->t = t;
+    return compiled->parser.Eval();
+  };
 }
 
 }  // namespace krater

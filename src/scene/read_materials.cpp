@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "krater/materials/catalogue.hpp"
 #include "scene/cards.hpp"
@@ -18,6 +20,13 @@ constexpr ParameterInfo kSpall{
     "spall"};
 constexpr ParameterInfo kTemperature{"initial_temperature", "K", Range::positive, 293,
                                      "at the start"};
+
+/// Five digits, for messages.
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(5) << value;
+  return text.str();
+}
 
 const LawInfo& law_info(const LawChoice& choice) {
   return catalogue()[static_cast<std::size_t>(choice.law)];
@@ -136,7 +145,10 @@ struct LawReader {
     options.damage = read_law("damage", law, resolved);
     material.record("damage", resolved);
     Block action{failure, material.place().path + ".failure", material.place(), reading.problems};
-    action.choice<int>("action", {{"strength_loss", 0}}, 0);
+    options.failure = action.choice<FailureAction>(
+        "action",
+        {{"strength_loss", FailureAction::strength_loss}, {"remove", FailureAction::remove}},
+        options.failure);
     material.record("failure", action.finish());
   }
 
@@ -182,6 +194,27 @@ void check_damage(const MaterialOptions& material, Block& block) {
   }
 }
 
+/// `heating: energy` with an equation of state that knows its own heat at the start.
+void check_heating(const MaterialOptions& material, Block& block) {
+  if (!material.heating || !law_info(*material.heating).needs_eos) return;
+  if (!material.eos) {
+    block.fail("heating " + material.heating->name +
+               " takes the temperature from an eos, and there is none; use plastic_work");
+    return;
+  }
+  const MaterialConstants constants{material.density, material.shear_modulus,
+                                    material.initial_temperature};
+  const std::optional<double> heat =
+      thermal_energy_at_start(material.eos->law, material.eos->values.data(), constants);
+  const double c_v = material.heating->values.at(0), T = material.initial_temperature;
+  if (!heat || std::fabs(c_v * T - *heat) <= 0.01 * *heat) return;
+  block.fail("eos " + material.eos->name + " starts with " + rounded(*heat) +
+             " J/kg of heat: with c_v = " + rounded(c_v) + " J/(kg K) that is " +
+             rounded(*heat / c_v) + " K, not initial_temperature " + rounded(T) +
+             " K; set initial_temperature: " + rounded(*heat / c_v) +
+             " K, or c_v: " + rounded(*heat / T) + " J/(kg K)");
+}
+
 void check_combination(const MaterialOptions& material, Block& block, Reading& reading) {
   const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
   if (strength && strength->whole_stress && material.eos) {
@@ -202,18 +235,15 @@ void check_combination(const MaterialOptions& material, Block& block, Reading& r
   if (material.rate != Rate::truesdell && (!strength || strength->whole_stress)) {
     block.fail("rate needs a strength whose stress follows from a rate");
   }
-  if (strength && strength->yields && !strength->in_parts &&
-      (material.damage || material.rate != Rate::truesdell)) {
-    block.fail("strength " + strength->name +
-               " reads the pressure and cannot be combined with damage or another rate yet");
-  }
   check_damage(material, block);
+  check_heating(material, block);
   if (strength && strength->name == "johnson_cook" && !material.heating) {
     reading.scene.notes.push_back(block.place().where() +
                                   ": johnson_cook without heating: plastic work does not "
                                   "soften the material");
   }
-  if (material.heating && !(strength && strength->yields)) {
+  if (material.heating && material.heating->name == "plastic_work" &&
+      !(strength && strength->yields)) {
     reading.scene.notes.push_back(block.place().where() +
                                   ": heating has no effect without plastic flow");
   }
@@ -265,13 +295,14 @@ Node read_materials(const Node* node, Reading& reading) {
   for (const Node& item : node->items) {
     if (!check_name(item, reading.problems)) continue;
     const std::size_t before = reading.problems.size();
-    const Node whole = with_card(item, reading.scene.file, reading.problems);
+    const CardedMaterial carded = with_card(item, reading.scene.file, reading.problems);
     if (reading.problems.size() > before) {
       // Without its card the block would only seem to lack keys; bodies may still name it.
       reading.scene.materials.emplace_back().name = item.key;
       continue;
     }
-    add_member(resolved, item.key, read_material(whole, reading));
+    add_member(resolved, item.key, read_material(carded.block, reading));
+    reading.scene.materials.back().unused = carded.unused;
   }
   return resolved;
 }

@@ -23,6 +23,10 @@ constexpr ParameterInfo kFlip{
     "flip_fraction", "1", Range::fraction, 0.99,
     "part of the residual of a point's own velocity kept in a step (tflip)"};
 
+constexpr ParameterInfo kStrain{
+    "strain", "1", Range::positive, 0.3,
+    "largest Green-Lagrange strain before the current configuration becomes the reference"};
+
 constexpr ParameterInfo kFrames{"frames", "s", Range::non_negative, 0,
                                 "between frames, 0: first and last"};
 constexpr ParameterInfo kHistory{"history", "s", Range::non_negative, 0,
@@ -32,40 +36,59 @@ constexpr ParameterInfo kCheckpoint{"checkpoint", "s", Range::non_negative, 600,
 
 constexpr int kHighestXpicOrder = 10;
 
-/// `flip`, or `{xpic: {order: 4}}`.
+/// A word, or a word with options: `flip`, `{xpic: {order: 4}}`. `read_options` reads what belongs
+/// to the value found.
+template <class T, class ReadOptions>
+Node read_worded(const Node* node, const std::string& key, const Words<T>& words, T& value,
+                 Reading& reading, const ReadOptions& read_options) {
+  const Node* options = nullptr;
+  if (node) {
+    const std::optional<Choice> choice = read_choice(*node, key, reading.problems);
+    const auto found = std::find_if(words.begin(), words.end(), [&](const auto& word) {
+      return choice && choice->name == word.first;
+    });
+    if (found != words.end()) {
+      value = found->second;
+      options = choice->value;
+    } else if (choice) {
+      std::vector<std::string> known;
+      for (const auto& word : words) known.emplace_back(word.first);
+      report_unknown(*choice->place, key, choice->name, known, reading.problems);
+      return {};
+    }
+  }
+  const std::string name = std::find_if(words.begin(), words.end(), [&](const auto& word) {
+                             return word.second == value;
+                           })->first;
+  Block block{options, "method." + key + "." + name, node ? *node : reading.root, reading.problems};
+  read_options(block);
+  const Node values = block.finish();
+  if (values.items.empty()) return string_node(name);
+  Node resolved;
+  add_member(resolved, name, values);
+  return resolved;
+}
+
 Node read_transfer(const Node* node, Reading& reading) {
   MethodOptions& method = reading.scene.method;
   const Words<Transfer> words{{"tflip", Transfer::tflip},
                               {"flip", Transfer::flip},
                               {"apic", Transfer::apic},
                               {"xpic", Transfer::xpic}};
-  const Node* options = nullptr;
-  if (node) {
-    const std::optional<Choice> choice = read_choice(*node, "transfer", reading.problems);
-    const auto found = std::find_if(words.begin(), words.end(), [&](const auto& word) {
-      return choice && choice->name == word.first;
-    });
-    if (found != words.end()) {
-      method.transfer = found->second;
-      options = choice->value;
-    } else if (choice) {
-      std::vector<std::string> known;
-      for (const auto& word : words) known.emplace_back(word.first);
-      report_unknown(*choice->place, "transfer", choice->name, known, reading.problems);
-      return {};
-    }
-  }
-  const std::string name = std::find_if(words.begin(), words.end(), [&](const auto& word) {
-                             return word.second == method.transfer;
-                           })->first;
-  Block block{options, "method.transfer." + name, node ? *node : reading.root, reading.problems};
-  if (method.transfer == Transfer::xpic)
-    method.xpic_order = block.integer("order", 1, kHighestXpicOrder, method.xpic_order);
-  const Node values = block.finish();
-  if (values.items.empty()) return string_node(name);
-  Node resolved;
-  add_member(resolved, name, values);
-  return resolved;
+  return read_worded(node, "transfer", words, method.transfer, reading, [&](Block& block) {
+    if (method.transfer == Transfer::xpic)
+      method.xpic_order = block.integer("order", 1, kHighestXpicOrder, method.xpic_order);
+  });
+}
+
+Node read_reference(const Node* node, Reading& reading) {
+  MethodOptions& method = reading.scene.method;
+  const Words<Reference> words{{"current", Reference::current},
+                               {"initial", Reference::initial},
+                               {"adaptive", Reference::adaptive}};
+  return read_worded(node, "reference", words, method.reference, reading, [&](Block& block) {
+    if (method.reference == Reference::adaptive) method.refresh_strain = block.number(kStrain);
+  });
 }
 
 }  // namespace
@@ -97,6 +120,7 @@ Node read_method(const Node* node, Reading& reading) {
                                       {"linear", Shape::linear}},
                                      method.shape);
   block.record("transfer", read_transfer(block.find("transfer"), reading));
+  block.record("reference", read_reference(block.find("reference"), reading));
   method.update = block.choice<Update>(
       "update", {{"usl", Update::usl}, {"musl", Update::musl}, {"usf", Update::usf}},
       method.update);

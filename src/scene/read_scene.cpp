@@ -38,7 +38,7 @@ void require_blocks(const Node& tree, Block& root) {
   }
   if (framed) return;
   for (const char* key : {"title", "frame", "grid", "time", "method", "materials", "bodies",
-                          "body_force", "output", "measures", "references"}) {
+                          "contact", "body_force", "output", "measures", "references"}) {
     root.find(key);
   }
   root.finish();
@@ -50,6 +50,8 @@ void read_blocks(Block& root, Reading& reading) {
   root.record("method", read_method(root.find("method"), reading));
   root.record("materials", read_materials(root.find("materials"), reading));
   root.record("bodies", read_bodies(root.find("bodies"), reading));
+  if (const Node* node = root.find_block("contact"))
+    root.record("contact", read_contact(*node, reading));
   read_body_force(root, reading);
   root.record("output", read_output(root.find("output"), reading));
   root.record("measures", read_measures(root.find("measures"), reading));

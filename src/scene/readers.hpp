@@ -29,6 +29,7 @@ Node read_method(const Node* node, Reading& reading);
 Node read_output(const Node* node, Reading& reading);
 Node read_materials(const Node* node, Reading& reading);
 Node read_bodies(const Node* node, Reading& reading);
+Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies
 Node read_measures(const Node* node, Reading& reading);
 Node read_references(const Node* node, Reading& reading);  ///< after read_measures
 

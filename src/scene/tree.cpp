@@ -16,8 +16,8 @@ namespace {
 /// Maps whose single member is a choice: naming another one replaces the first instead of joining
 /// it.
 bool is_choice(const std::string& key) {
-  static const std::array<const char*, 5> choices{"eos", "strength", "heating", "shape",
-                                                  "transfer"};
+  static const std::array<const char*, 6> choices{"eos",   "strength", "heating",
+                                                  "shape", "transfer", "path"};
   static const std::array<const char*, 4> axes{"x_", "y_", "z_", "r_"};
   const bool side = key.size() == 5 && std::any_of(axes.begin(), axes.end(), [&](const char* axis) {
                       return key.compare(0, 2, axis) == 0;

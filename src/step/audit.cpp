@@ -3,18 +3,17 @@
 
 namespace krater {
 
-void Audit::book_step(const StepEnergies& e, double wall, double correction,
-                      const std::array<double, 3>& impulse, int columns) {
+void Audit::book_step(const StepEnergies& e, const Constraint& walls, const Constraint& contact) {
+  const double correction = walls.correction + contact.correction;
   const double work =
       e.grid_after - e.grid_before + correction - step_external;  // of the internal forces
   transfer_in += e.kinetic - e.grid_before;
   internal_work += work;
   external_work += step_external;
-  wall_work += wall - correction;
-  transfer_out += e.grid_after + wall - kinetic;
+  wall_work += walls.work - walls.correction;
+  contact_work += contact.work - contact.correction;
+  transfer_out += e.grid_after + walls.work + contact.work - kinetic;
   time_centring += -work - (internal - e.internal);
-  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += impulse[a];
-  wall_columns = columns;
   step_external = 0;
 }
 
@@ -29,15 +28,22 @@ void Audit::book_events(const Ledger& ledger) {
   spalls += ledger.spalls;
 }
 
-void Audit::book_removed(double kinetic_gone, double internal_gone, double mass, double count,
-                         const std::array<double, 3>& momentum, double reflected) {
-  kinetic -= kinetic_gone;
-  internal -= internal_gone;
-  removed_energy += kinetic_gone + internal_gone;
-  removed_mass += mass;
-  removed_points += count;
-  for (std::size_t a = 0; a < 3; ++a) removed_momentum[a] += momentum[a];
-  reflections += reflected;
+void Audit::book_point_walls(const std::array<double, 3>& force, double dt, bool alone) {
+  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += force[a] * dt;
+  if (!alone) return;
+  wall_work += external_work;
+  external_work = 0;
+}
+
+void Audit::book_removed(const Removed& gone) {
+  kinetic -= gone.kinetic;
+  internal -= gone.internal;
+  removed_energy += gone.kinetic + gone.internal;
+  removed_mass += gone.mass;
+  removed_points += gone.count;
+  removed_failed += gone.failed;
+  for (std::size_t a = 0; a < 3; ++a) removed_momentum[a] += gone.momentum[a];
+  reflections += gone.reflections;
 }
 
 }  // namespace krater

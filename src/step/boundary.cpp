@@ -12,6 +12,9 @@ namespace {
 // several per cent, a gap of g cells costs 1.5 g; 0.25 closes gaps below 0.15 cells.
 constexpr double kFillTolerance = 0.25;
 
+// Distance from the wall, in cells, at which a node of a fixed reference counts as touching.
+constexpr double kGapTolerance = 0.02;
+
 constexpr int kMass = 0, kMomentum = 1, kForce = 4, kVolume = 7;  // after the scatter
 constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;          // after the momentum update
 
@@ -62,9 +65,26 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane, int side) const {
       std::array<int, 3> ghost = index, inner = index;
       ghost[static_cast<unsigned>(plane.axis)] -= inward;
       inner[static_cast<unsigned>(plane.axis)] += inward;
-      const Column column{grid.find_node(ghost), grid.find_node(index), grid.find_node(inner)};
-      if (column.ghost != nullptr && column.inner != nullptr) plane.columns.push_back(column);
+      const auto node = [&](const std::array<int, 3>& at) {
+        return grid.find_node(at, block.field);
+      };
+      const Column column{node(ghost), node(index), node(inner), 0};
+      if (column.ghost == nullptr || column.inner == nullptr) continue;
+      plane.columns.push_back(column);
+      block.at_wall = block.at_wall || plane.condition->kind == BoundaryKind::wall;
     }
+  }
+}
+
+void BoundarySet::note_gaps() {
+  for (Plane& plane : planes_) {
+    if (plane.condition->kind != BoundaryKind::wall) continue;
+    const double at = plane.inward > 0 ? geometry_.min[static_cast<unsigned>(plane.axis)]
+                                       : geometry_.upper(plane.axis);
+    for (Column& c : plane.columns)
+      c.gap = c.plane[kMass] > 0
+                  ? plane.inward * (c.plane[kMomentum + plane.axis] / c.plane[kMass] - at)
+                  : 0;
   }
 }
 
@@ -109,7 +129,9 @@ void BoundarySet::constrain_wall(const Plane& plane, const Column& c, BoundaryWo
   if (m_0 <= 0) return;
   const double push = -plane.inward * (2 * m_g * c.ghost[n] + m_0 * c.plane[n]);
   const bool touches =
-      2 * c.plane[kVolume] > (1 - kFillTolerance) * (c.inner[kVolume] + c.ghost[kVolume]);
+      fixed_reference_
+          ? c.gap <= kGapTolerance * geometry_.h
+          : 2 * c.plane[kVolume] > (1 - kFillTolerance) * (c.inner[kVolume] + c.ghost[kVolume]);
   if (push <= 0 || !touches) return;
   ++sum.columns_in_contact;
   sum.work -= kinetic(c.ghost) + kinetic(c.plane) + kinetic(c.inner);

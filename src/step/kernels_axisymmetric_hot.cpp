@@ -5,7 +5,7 @@ namespace krater::inline KRATER_ISA {
 
 Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine);
 Kernels* make_axisymmetric_kernels(KernelShape shape, bool affine) {
-  return make_transfer_kernels<Axisymmetric>(shape, affine);
+  return make_transfer_kernels<Axisymmetric, CurrentConfiguration>(shape, affine);
 }
 
 }  // namespace krater::inline KRATER_ISA

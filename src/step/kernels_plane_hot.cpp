@@ -5,7 +5,7 @@ namespace krater::inline KRATER_ISA {
 
 Kernels* make_plane_kernels(KernelShape shape, bool affine);
 Kernels* make_plane_kernels(KernelShape shape, bool affine) {
-  return make_transfer_kernels<Cartesian<2>>(shape, affine);
+  return make_transfer_kernels<Cartesian<2>, CurrentConfiguration>(shape, affine);
 }
 
 }  // namespace krater::inline KRATER_ISA

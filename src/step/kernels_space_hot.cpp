@@ -5,7 +5,7 @@ namespace krater::inline KRATER_ISA {
 
 Kernels* make_space_kernels(KernelShape shape, bool affine);
 Kernels* make_space_kernels(KernelShape shape, bool affine) {
-  return make_transfer_kernels<Cartesian<3>>(shape, affine);
+  return make_transfer_kernels<Cartesian<3>, CurrentConfiguration>(shape, affine);
 }
 
 }  // namespace krater::inline KRATER_ISA

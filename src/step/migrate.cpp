@@ -2,6 +2,7 @@
 #include "krater/step/migrate.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "krater/core/parallel.hpp"
@@ -10,36 +11,64 @@ namespace krater {
 
 namespace {
 
-/// Component k of point i in AoSoA storage.
-double& at(Patch& patch, int stride, int offset, int i) {
-  return patch.records
-      .data()[static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(stride) +
-              static_cast<std::size_t>(offset + i % kLanes)];
-}
-
 void copy_point(Patch& patch, int stride, int from, int to) {
-  for (int k = 0; k < stride; k += kLanes) at(patch, stride, k, to) = at(patch, stride, k, from);
+  for (int k = 0; k < stride; k += kLanes)
+    component(patch, stride, k, to) = component(patch, stride, k, from);
 }
 
 /// Outside a closed side by round-off: mirror position and normal velocity.
 void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int axis, int i) {
-  double& x = at(patch, c.stride, c.position + kLanes * axis, i);
+  double& x = component(patch, c.stride, c.position + kLanes * axis, i);
   const double lower = geometry.min[static_cast<unsigned>(axis)], upper = geometry.upper(axis);
   x = x < lower ? 2 * lower - x : 2 * upper - x;
-  double& v = at(patch, c.stride, c.velocity + kLanes * axis, i);
+  double& v = component(patch, c.stride, c.velocity + kLanes * axis, i);
   v = -v;
 }
 
 void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int i,
            Removed& removed) {
-  const double m = at(patch, c.stride, c.mass, i);
+  const double m = component(patch, c.stride, c.mass, i);
   removed.count += 1;
   removed.mass += m;
   removed.kinetic += point_kinetic(patch, i, c, geometry);
-  if (c.energy >= 0) removed.internal += m * at(patch, c.stride, c.energy, i);
+  if (c.energy >= 0) removed.internal += m * component(patch, c.stride, c.energy, i);
   for (int a = 0; a < geometry.dimension; ++a)
     removed.momentum[static_cast<unsigned>(a)] +=
-        m * at(patch, c.stride, c.velocity + kLanes * a, i);
+        m * component(patch, c.stride, c.velocity + kLanes * a, i);
+}
+
+/// False when a point left through an open side; puts it back inside closed sides.
+bool keep_inside(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+                 const PointColumns& c, int i, Removed& removed) {
+  for (int a = 0; a < geometry.dimension; ++a) {
+    const double x = component(patch, c.stride, c.position + kLanes * a, i);
+    const bool low = x < geometry.min[static_cast<unsigned>(a)];
+    const bool high = geometry.storage(x, a) > geometry.cells[static_cast<unsigned>(a)] + 1.0;
+    if (!low && !high) continue;
+    if (boundary.is_open(a, low ? 0 : 1)) return false;
+    reflect(patch, c, geometry, a, i);
+    removed.reflections += 1;
+  }
+  return true;
+}
+
+BlockKey block_of_point(Patch& patch, const GridGeometry& geometry, const PointColumns& c, int i) {
+  double position[3];
+  for (int a = 0; a < geometry.dimension; ++a)
+    position[a] = component(patch, c.stride, c.position + kLanes * a, i);
+  return block_of(geometry, position);
+}
+
+/// Lanes of a group that failure takes out, among the points of the patch.
+unsigned failed_lanes(const Patch& patch, const PointColumns& c, int g) {
+  if (c.removed < 0) return 0;
+  const double* failed = patch.records.data() +
+                         static_cast<std::size_t>(g) * static_cast<std::size_t>(c.stride) +
+                         c.removed;
+  unsigned lanes = 0;
+  for (int l = 0; l < kLanes && kLanes * g + l < patch.count; ++l)
+    if (failed[l] > 0.5) lanes |= 1U << l;
+  return lanes;
 }
 
 enum class Fate { stays, goes, removed };
@@ -48,24 +77,9 @@ enum class Fate { stays, goes, removed };
 Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
            const PointColumns& c, int i, int& slot, Removed& removed) {
   slot = 0;
+  if (!keep_inside(patch, geometry, boundary, c, i, removed)) return Fate::removed;
+  const BlockKey key = block_of_point(patch, geometry, c, i);
   bool here = true;
-  for (int a = 0; a < geometry.dimension; ++a) {
-    double x = at(patch, c.stride, c.position + kLanes * a, i);
-    const bool low =
-        x<geometry.min[static_cast<unsigned>(a)], high = geometry.storage(x, a)> geometry
-            .cells[static_cast<unsigned>(a)] +
-        1.0;
-    if (low || high) {
-      if (boundary.is_open(a, low ? 0 : 1)) return Fate::removed;
-      reflect(patch, c, geometry, a, i);
-      removed.reflections += 1;
-      x = at(patch, c.stride, c.position + kLanes * a, i);
-    }
-  }
-  double position[3];
-  for (int a = 0; a < geometry.dimension; ++a)
-    position[a] = at(patch, c.stride, c.position + kLanes * a, i);
-  const BlockKey key = block_of(geometry, position);
   for (int a = 0; a < geometry.dimension; ++a) {
     const int offset = key.i[static_cast<unsigned>(a)] - patch.key.i[static_cast<unsigned>(a)];
     if (offset < -1 || offset > 1) {
@@ -80,7 +94,8 @@ Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& bounda
 }
 
 void post(Patch& patch, int stride, int slot, int i) {
-  for (int k = 0; k < stride; k += kLanes) patch.outbox.records.push_back(at(patch, stride, k, i));
+  for (int k = 0; k < stride; k += kLanes)
+    patch.outbox.records.push_back(component(patch, stride, k, i));
   patch.outbox.slots.push_back(static_cast<std::uint8_t>(slot));
   patch.outbox.used |= 1U << slot;
 }
@@ -111,12 +126,16 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
   patch.outbox.clear();
   std::vector<int> holes;
   for (int g = 0; g < patch.groups(); ++g) {
-    if (leavers[g] == 0) continue;
+    const unsigned failed = failed_lanes(patch, columns, g), all = leavers[g] | failed;
+    if (all == 0) continue;
     for (int l = 0; l < kLanes; ++l) {
-      if (((leavers[g] >> l) & 1) == 0) continue;
+      if (((all >> l) & 1U) == 0) continue;
       const int i = kLanes * g + l;
+      const bool is_failed = ((failed >> l) & 1U) != 0;
       int slot = 0;
-      const Fate fate = judge(patch, geometry, boundary, columns, i, slot, removed);
+      const Fate fate =
+          is_failed ? Fate::removed : judge(patch, geometry, boundary, columns, i, slot, removed);
+      if (is_failed) removed.failed += 1;
       if (fate == Fate::stays) continue;
       if (fate == Fate::goes)
         post(patch, columns.stride, slot, i);
@@ -147,13 +166,13 @@ void append(Patch& patch, const double* point, int stride) {
   patch.settled = patch.tile_current = false;
   patch.records.reserve(static_cast<std::size_t>(patch.groups()) *
                         static_cast<std::size_t>(stride));
-  for (int k = 0; k < stride; k += kLanes) at(patch, stride, k, i) = point[k / kLanes];
+  for (int k = 0; k < stride; k += kLanes) component(patch, stride, k, i) = point[k / kLanes];
 }
 
 void pad(Patch& patch, int stride, int mass_offset) {
   for (int i = patch.count; i < kLanes * patch.groups(); ++i) {
     copy_point(patch, stride, patch.count - 1, i);
-    at(patch, stride, mass_offset, i) = 0;
+    component(patch, stride, mass_offset, i) = 0;
   }
 }
 
@@ -194,6 +213,37 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
   }
   if (emptied) grid.rebuild(true);
   return emptied || !missing.empty();
+}
+
+Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
+                     const PointColumns& c) {
+  Removed removed;
+  std::map<BlockKey, std::vector<double>> moved;
+  for (Patch& patch : grid.patches) {
+    if (patch.body != body) continue;
+    for (int i = 0; i < patch.count; ++i) {
+      if (!keep_inside(patch, grid.geometry(), boundary, c, i, removed)) {
+        tally(patch, c, grid.geometry(), i, removed);
+        continue;
+      }
+      std::vector<double>& records = moved[block_of_point(patch, grid.geometry(), c, i)];
+      for (int k = 0; k < c.stride; k += kLanes)
+        records.push_back(component(patch, c.stride, k, i));
+    }
+    patch.count = 0;
+  }
+  std::erase_if(grid.patches, [](const Patch& p) { return p.count == 0; });
+  const auto width = static_cast<std::size_t>(c.stride / kLanes);
+  for (const auto& [key, records] : moved) {
+    Patch& patch = grid.patches.emplace_back();
+    patch.key = key;
+    patch.body = body;
+    for (std::size_t k = 0; k < records.size(); k += width)
+      append(patch, records.data() + k, c.stride);
+    pad(patch, c.stride, c.mass);
+  }
+  grid.rebuild(true);
+  return removed;
 }
 
 }  // namespace krater

@@ -41,17 +41,21 @@ double alpha_of(const MethodOptions& m, double tflip) {
 }  // namespace
 
 MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
-                 const Kernels& kernels, const Kernels& plain,
+                 ContactSet& contact, const Kernels& kernels, const Kernels& plain,
                  const std::vector<BodyKernelData>& bodies)
     : method_{method},
       grid_{grid},
       boundary_{boundary},
+      contact_{contact},
       kernels_{kernels},
       plain_{plain},
       bodies_{bodies},
-      velocity_from_kept_{bodies} {
+      velocity_from_kept_{bodies},
+      position_as_velocity_{bodies} {
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
+  for (BodyKernelData& body : position_as_velocity_)
+    body.columns.velocity = body.columns.position, body.columns.affine = body.columns.map;
   zeros_.reserve(9 * kLanes);
   node_settings_.cell_volume = std::pow(grid.geometry().h, grid.geometry().dimension);
 }
@@ -73,21 +77,38 @@ double MpmStep::advance(double dt) {
   return dt;
 }
 
-double MpmStep::step_usl(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
-  particles_to_grid(kernels_, bodies_, dt);
-  const GridEnergy grid = momentum(dt, 1);
-  BoundaryWork wall = boundary_.constrain();
+MpmStep::Constraints MpmStep::constrain() {
+  Constraints out;
+  if (contact_.active()) out.contact = contact_.apply(grid_);
+  lap(Phase::contact);
+  out.walls = boundary_.constrain();
   boundary_.mirror();
   lap(Phase::boundary);
+  return out;
+}
+
+void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
+  audit_.book_step(energies, {c.walls.work, c.walls.force_correction},
+                   {c.contact.work, c.contact.force_correction});
+  audit_.friction_work += c.contact.friction;
+  audit_.contact_pairs = c.contact.nodes;
+  for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
+  audit_.wall_columns = c.walls.columns_in_contact;
+}
+
+double MpmStep::step_usl(double dt) {
+  const double kinetic = audit_.kinetic, internal = audit_.internal;
+  if (method_.reference != Reference::current) measure_gaps();
+  particles_to_grid(kernels_, bodies_, dt);
+  const GridEnergy grid = momentum(dt, 1);
+  Constraints constraints = constrain();
   if (method_.transfer == Transfer::xpic) {
     const std::array<double, 3> impulse = filter_velocity();
-    for (std::size_t a = 0; a < 3; ++a) wall.impulse[a] += impulse[a];
+    for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
   }
   grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
                     dt);
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
-                   wall.impulse, wall.columns_in_contact);
+  book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
 }
 
@@ -95,9 +116,7 @@ double MpmStep::step_musl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  const BoundaryWork wall = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  const Constraints constraints = constrain();
   grid_to_particles(GatherPart::velocity_only, dt);
 
   // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
@@ -105,15 +124,14 @@ double MpmStep::step_musl(double dt) {
   // need their L.
   particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
-  const BoundaryWork wall_again = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  const Constraints repeated = constrain();
   grid_to_particles(GatherPart::strain_move, dt);
-  audit_.transfer_out += grid.after + wall.work - again.before;  // the detour over the points
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
-                   wall.impulse, wall.columns_in_contact);
-  audit_.transfer_out += again.after - (grid.after + wall.work) + wall_again.work;
-  audit_.wall_work += wall_again.work;
+  audit_.transfer_out +=
+      grid.after + constraints.work() - again.before;  // the detour over the points
+  book({kinetic, internal, grid.before, grid.after}, constraints);
+  audit_.transfer_out += again.after - (grid.after + constraints.work()) + repeated.work();
+  audit_.wall_work += repeated.walls.work;
+  audit_.contact_work += repeated.contact.work;
   return dt;
 }
 
@@ -121,19 +139,14 @@ double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   momentum(dt, 0);
-  boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  constrain();
   grid_to_particles(GatherPart::strain_only, dt);
 
   particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy grid = momentum(dt, 1);
-  const BoundaryWork wall = boundary_.constrain();
-  boundary_.mirror();
-  lap(Phase::boundary);
+  const Constraints constraints = constrain();
   grid_to_particles(GatherPart::velocity_move, dt);
-  audit_.book_step({kinetic, internal, grid.before, grid.after}, wall.work, wall.force_correction,
-                   wall.impulse, wall.columns_in_contact);
+  book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
 }
 
@@ -154,6 +167,7 @@ SweepScratch MpmStep::scratch() {
 
 void MpmStep::relink() {
   boundary_.relink(grid_);
+  contact_.relink(grid_);
   boundary_blocks_.clear();
   for (std::size_t n = 0; n < grid_.node_blocks.size(); ++n)
     if (grid_.node_blocks[n].at_boundary) boundary_blocks_.push_back(n);
@@ -307,7 +321,7 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
   const std::size_t size =
       static_cast<std::size_t>(patch.groups()) * static_cast<std::size_t>(body.columns.stride);
   const std::uint64_t before = still ? hash_of(patch.records.data(), size) : 0;
-  if (part != GatherPart::velocity_move) patch.result.max_rate = 0;
+  if (part != GatherPart::velocity_move) patch.result.max_rate = patch.result.stretch = 0;
   kernels_.gather(patch, grid_, body, s, w, part);
   patch.settled = still && hash_of(patch.records.data(), size) == before;
 }
@@ -351,9 +365,10 @@ void MpmStep::throw_faults() const {
 }
 
 void MpmStep::migrate() {
-  for (const Removed& r : removed_)
-    audit_.book_removed(r.kinetic, r.internal, r.mass, r.count, r.momentum, r.reflections);
-  if (deliver(grid_, bodies_))
+  for (const Removed& r : removed_) audit_.book_removed(r);
+  bool changed = deliver(grid_, bodies_);
+  if (method_.reference == Reference::adaptive) changed = renew_references() || changed;
+  if (changed)
     relink();
   else
     provide_memory();  // patches may have grown

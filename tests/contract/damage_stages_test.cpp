@@ -133,8 +133,14 @@ TEST_SUITE("contract") {
     rate.coupling = Coupling::rate;
     Recipe all = steel();
     all.degrade = DegradePressure::all;
-    for (const Recipe& recipe :
-         {steel(), spalling, hot, rate, all, steel("maximum_plastic_strain")}) {
+    Recipe guinan = steel();
+    guinan.strength = "steinberg_guinan", guinan.heating = true;
+    Recipe rock = steel(), rock_rate = rate;
+    rock.strength = rock_rate.strength = "drucker_prager";
+    Recipe thermal = hot;
+    thermal.heating = false, thermal.thermal = true;
+    for (const Recipe& recipe : {steel(), spalling, hot, rate, all, guinan, rock, rock_rate,
+                                 thermal, steel("maximum_plastic_strain")}) {
       CAPTURE(describe(recipe));
       Driver driver{recipe};
       double last = 0.0;
@@ -147,6 +153,62 @@ TEST_SUITE("contract") {
       }
       REQUIRE(driver.body.fault.kind == FaultKind::none);
       if (recipe.spall_strength > 0) CHECK(driver.body.ledger.spalls > 0);
+    }
+  }
+
+  TEST_CASE(
+      "damage: Drucker-Prager yields at (1 - phi)(Y + alpha p~) and separates at w times its "
+      "apex") {
+    for (const Coupling coupling : {Coupling::effective, Coupling::rate}) {
+      Recipe recipe = steel("lemaitre_energy");
+      recipe.strength = "drucker_prager", recipe.coupling = coupling;
+      recipe.parameters["drucker_prager.Y"] = 500e6;
+      recipe.parameters["drucker_prager.dilatancy"] = 0.0;
+      recipe.parameters["lemaitre_energy.S"] = 0.05e6;
+      recipe.parameters["lemaitre_energy.triaxiality_min"] = -100.0;
+      Driver driver{recipe};
+      const auto shear = [&](double by, double volume) {
+        for (int k = 0; k < 9; ++k)
+          driver.body.local("step_gradient", 0, k) = k == 1 ? by : k % 4 == 0 ? volume : 0.0;
+        driver.body.step(1e-8);
+      };
+      double p = 0.0;
+      while (driver.value("damage") < 0.4) p = driver.value("pressure"), shear(1e-4, -2e-6);
+      REQUIRE(driver.value("failed") == 0.0);
+      CHECK(p > 0.0);
+      const double phi = driver.value("damage");
+      double square = 0.0;
+      for (int k = 0; k < 6; ++k)
+        square += (k < 3 ? 1.0 : 2.0) * std::pow(driver.value("deviatoric_stress", k), 2);
+      // Compression is not degraded: p^ = p~.
+      CHECK(std::sqrt(1.5 * square) ==
+            doctest::Approx((1.0 - phi) * (500e6 + 0.6 * p)).epsilon(1e-9));
+      for (int n = 0; n < 3000; ++n) shear(0.0, 2e-5);
+      REQUIRE(driver.value("failed") == 0.0);
+      CHECK(driver.value("pressure") ==
+            doctest::Approx(-(1.0 - driver.value("damage")) * 500e6 / 0.6).epsilon(1e-12));
+      REQUIRE(driver.body.fault.kind == FaultKind::none);
+    }
+  }
+
+  TEST_CASE("rates: Steinberg-Guinan's modulus of the step enters every rate") {
+    for (const Rate rate : {Rate::truesdell_projected, Rate::jaumann, Rate::green_naghdi}) {
+      const Recipe recipe{
+          .strength = "steinberg_guinan", .eos = "linear", .viscosity = false, .rate = rate};
+      Body body{*stage_factory_isa_portable(), recipe, 1, 1};
+      const auto step = [&](double volume, double shear) {
+        for (int k = 0; k < 9; ++k)
+          body.local("step_gradient", 0, k) = k == 1 ? shear : k % 4 == 0 ? volume : 0.0;
+        body.step(1e-8);
+      };
+      for (int n = 0; n < 200; ++n) step(-3e-4, 0.0);
+      const double p = body.state("pressure", 0), x = body.state("density", 0) / 8960.0;
+      const double G = 46e9 * (1.0 + 2.83e-11 * p / std::cbrt(x) - 3.77e-4 * (294.0 - 300.0));
+      CHECK(G > 1.2 * 46e9);
+      step(0.0, 1e-4);
+      CHECK(body.local("shear_modulus", 0) == doctest::Approx(G).epsilon(1e-13));
+      CHECK(body.state("deviatoric_stress", 0, 5) == doctest::Approx(1e-4 * G).epsilon(1e-4));
+      CHECK(body.state("plastic_strain", 0) == 0.0);
     }
   }
 
@@ -243,7 +305,8 @@ TEST_SUITE("contract") {
   }
 
   TEST_CASE("damage that has not begun changes no bit of the stress") {
-    for (const char* strength : {"von_mises", "johnson_cook"}) {
+    for (const char* strength :
+         {"von_mises", "johnson_cook", "steinberg_guinan", "drucker_prager"}) {
       Recipe sound{.strength = strength, .eos = "mie_gruneisen_shock", .heating = true};
       Recipe damaged = sound;
       damaged.damage = "maximum_plastic_strain";

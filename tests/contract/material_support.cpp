@@ -157,6 +157,7 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"maximum_plastic_strain.eps_max", 0.02},
       {"plastic_work.fraction", 0.9},
       {"plastic_work.cp", 383.0},
+      {"energy.c_v", 383.0},
   };
   std::vector<double> result;
   const std::string name = law.name == "voce_log" ? "voce" : law.name;
@@ -212,6 +213,37 @@ std::vector<Recipe> all_recipes() {
                        .rate = rate,
                        .degrade = DegradePressure::none});
   }
+  // Laws that read the pressure or vary G, in parts: both couplings, every rate, spall.
+  for (const char* strength : {"steinberg_guinan", "drucker_prager"}) {
+    for (const Coupling coupling : {Coupling::effective, Coupling::rate}) {
+      recipes.push_back(
+          {.strength = strength,
+           .eos = "mie_gruneisen_shock",
+           .heating = coupling == Coupling::rate,
+           .damage = "lemaitre_energy",
+           .coupling = coupling,
+           .degrade = coupling == Coupling::rate ? DegradePressure::all : DegradePressure::tension,
+           .spall_strength = coupling == Coupling::rate ? 1e8 : 0.0,
+           .thermal = coupling == Coupling::effective});
+    }
+    for (const Rate rate : {Rate::truesdell_projected, Rate::jaumann, Rate::green_naghdi}) {
+      recipes.push_back({.strength = strength, .eos = "linear", .heating = true, .rate = rate});
+    }
+    recipes.push_back({.strength = strength,
+                       .eos = "mie_gruneisen_shock",
+                       .damage = "johnson_cook",
+                       .rate = Rate::jaumann});
+  }
+  for (const std::string& eos : law_names("eos")) {
+    recipes.push_back({.strength = "johnson_cook", .eos = eos, .thermal = true});
+  }
+  recipes.push_back({.strength = "", .eos = "ideal_gas", .thermal = true});
+  recipes.push_back({.strength = "drucker_prager", .eos = "mie_gruneisen_shock", .thermal = true});
+  recipes.push_back({.strength = "johnson_cook",
+                     .eos = "tillotson",
+                     .damage = "johnson_cook",
+                     .spall_strength = 1e8,
+                     .thermal = true});
   recipes.push_back({.strength = "elastic", .eos = "mie_gruneisen_shock", .spall_strength = 2e8});
   for (const std::string& eos : law_names("eos")) {  // fluids
     recipes.push_back({.strength = "", .eos = eos, .viscosity = eos != "linear"});
@@ -221,7 +253,8 @@ std::vector<Recipe> all_recipes() {
 
 std::string describe(const Recipe& recipe) {
   return recipe.strength + " + " + recipe.eos + (recipe.viscosity ? " + viscosity" : "") +
-         (recipe.heating ? " + heating" : "") + (recipe.track_deformation ? " + F" : "") +
+         (recipe.heating ? " + heating" : "") + (recipe.thermal ? " + heating by energy" : "") +
+         (recipe.track_deformation ? " + F" : "") +
          (recipe.damage.empty() ? "" : " + damage " + recipe.damage) +
          (recipe.coupling == Coupling::rate ? " (rate)" : "") +
          (recipe.spall_strength > 0 ? " + spall" : "") + ", " +
@@ -258,7 +291,8 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
   plan.eos = planned("eos", recipe.eos);
   plan.damage = planned("damage", recipe.damage);
   plan.viscosity = planned("viscosity", recipe.viscosity ? "linear_quadratic" : "");
-  plan.heating = planned("heating", recipe.heating ? "plastic_work" : "");
+  plan.heating =
+      planned("heating", recipe.heating ? "plastic_work" : (recipe.thermal ? "energy" : ""));
   plan.rate = recipe.rate, plan.coupling = recipe.coupling, plan.degrade = recipe.degrade;
   if (recipe.spall_strength > 0) plan.spall_strength = recipe.spall_strength;
   if (recipe.viscosity) plan.q_lin = 0.3, plan.q_quad = 2.0;
@@ -300,8 +334,7 @@ double& Body::local(const char* field, int point, int component) {
 }
 
 void Body::pad() {
-  const int batches = groups_ / groups_per_batch_;
-  for (int b = 0; b < batches; ++b) {
+  for (int b = 0; b < batches(); ++b) {
     const int last = std::min((b + 1) * batch_size_, points_) - 1;
     const int from = slot(last), end = (b + 1) * groups_per_batch_ * kLanes;
     const auto copy = [&](double* base, int stride, int to) {
@@ -319,25 +352,28 @@ void Body::pad() {
   }
 }
 
+BatchData Body::batch(int index, double dt) {
+  const int first = index * groups_per_batch_;
+  const int count = std::min(batch_size_, points_ - index * batch_size_);
+  return {.state = state_ + first * layout_.stride(),
+          .state_stride = layout_.stride(),
+          .local = local_ + first * layout_.local_stride(),
+          .local_stride = layout_.local_stride(),
+          .zeros = zeros_,
+          .groups = (count + kLanes - 1) / kLanes,
+          .count = count,
+          .first_group = first,
+          .dt = dt,
+          .length = 1e-4,
+          .ledger = &ledger,
+          .fault = &fault};
+}
+
 void Body::step(double dt) {
   pad();
-  const int batches = groups_ / groups_per_batch_;
-  for (int b = 0; b < batches; ++b) {
-    const int first = b * groups_per_batch_;
-    const int count = std::min(batch_size_, points_ - b * batch_size_);
-    const BatchData batch{.state = state_ + first * layout_.stride(),
-                          .state_stride = layout_.stride(),
-                          .local = local_ + first * layout_.local_stride(),
-                          .local_stride = layout_.local_stride(),
-                          .zeros = zeros_,
-                          .groups = (count + kLanes - 1) / kLanes,
-                          .count = count,
-                          .first_group = first,
-                          .dt = dt,
-                          .length = 1e-4,
-                          .ledger = &ledger,
-                          .fault = &fault};
-    for (const NamedStage& stage : stages_) stage.stage->apply(batch);
+  for (int b = 0; b < batches(); ++b) {
+    const BatchData data = batch(b, dt);
+    for (const NamedStage& stage : stages_) stage.stage->apply(data);
   }
 }
 

@@ -34,7 +34,7 @@ inline constexpr MaterialConstants kCopper{8960.0, 46e9, 294.0};
 struct Recipe {
   std::string strength, eos;
   bool viscosity = true;
-  bool heating = false;
+  bool heating = false;            ///< plastic_work
   bool track_deformation = false;  ///< a column F that the kinematics stage keeps
   std::string damage = {};
   Rate rate = Rate::truesdell;
@@ -44,6 +44,7 @@ struct Recipe {
   /// Instead of typical_parameters: "law.key" and value.
   std::map<std::string, double> parameters = {};
   MaterialConstants constants = kCopper;
+  bool thermal = false;  ///< heating: energy
 };
 /// Every strength with every eos (or none, if it gives the whole stress), every damage law with the
 /// couplings it allows, every rate with and without damage; from the catalogue.
@@ -65,6 +66,12 @@ class Body {
   /// One step: padding is refreshed with copies of the last point, then every stage sees every
   /// batch.
   void step(double dt);
+
+  /// The batches of a step, as the stages see them; step() pads them first.
+  int batches() const { return groups_ / groups_per_batch_; }
+  BatchData batch(int index, double dt);
+  /// All state and local records, to be kept and put back.
+  std::vector<double>& storage() { return storage_; }
 
   /// Every state and local value of a point, in column order, for comparison of bits.
   std::vector<double> everything(int point);

@@ -11,6 +11,7 @@ from scene_support import (Folder, check, checkpoint_is_whole, differences, fini
 
 CASES = {
     "axisymmetric": ["time.end=8 us", "output.frames=2 us"],
+    "adaptive": ["method.reference={adaptive: {strain: 0.1}}", "time.end=6 us", "output.frames=2 us"],
     "3d": ["frame=3d", "grid.cell=0.762 mm", "time.end=2 us", "output.frames=0.5 us"],
 }
 
@@ -63,7 +64,8 @@ def restart(name, values, rows):
 
 def instruction_sets():
     values = ["time.end=2 us", "output.frames=1 us"]
-    frames = {"2d": values, "3d": ["time.end=1 us", "frame=3d", "grid.cell=0.762 mm"]}
+    frames = {"2d": values, "adaptive": [*values, "method.reference={adaptive: {strain: 0.1}}"],
+              "3d": ["time.end=1 us", "frame=3d", "grid.cell=0.762 mm"]}
     for name, settings in frames.items():
         ran = []
         for level in ("portable", "v3", "v4"):
@@ -82,6 +84,6 @@ def instruction_sets():
 with Folder():
     for case, options in CASES.items():
         threads(case, options)
-        restart(case, options, 17 if case == "axisymmetric" else 5)
+        restart(case, options, 5 if case == "3d" else 17)
     instruction_sets()
 finish()

@@ -78,7 +78,7 @@ def arguments():
     refused("-j 0", ["threads", "1"], "run", TAYLOR, "-j", "0")
     refused("-j many", ["threads"], "run", TAYLOR, "-j", "many")
     refused("no command", ["subcommand", "--help"])
-    refused("unknown command", ["unknown command 'rum'", "known: run, check, models"], "rum", TAYLOR)
+    refused("unknown command", ["unknown command 'rum'", "known: run, check, point, models"], "rum", TAYLOR)
     refused("unknown option", ["--fast", "--help"], "run", TAYLOR, "--fast")
     refused("run without a scene", ["scene", "--help"], "run")
     refused("models: unknown law", ["no law 'jonson'", "johnson_cook"], "models", "jonson")
@@ -127,8 +127,8 @@ def restarts():
 
 
 def good():
-    for words, expected in ((("--version",), r"^krater \d+\.\d+\.\d+ \("), (("--help",), "run.*check.*models"),
-                            (("run", "--help"), "--restart"), (("check", "--help"), "--set"),
+    for words, expected in ((("--version",), r"^krater \d+\.\d+\.\d+ \("), (("--help",), "run.*check.*point.*models"),
+                            (("run", "--help"), "--restart"), (("check", "--help"), "--set"), (("point", "--help"), "--set"),
                             (("models",), "johnson_cook.*mie_gruneisen_shock"), (("models", "--help"), "name"),
                             (("models", "johnson_cook"), r"A +\[Pa\].*T_melt"),
                             (("check", TAYLOR), "rod.*johnson_cook.*estimate")):

@@ -68,6 +68,16 @@ with tempfile.TemporaryDirectory(prefix="krater scene ") as scratch:
     z = f["coordinates"][:, 2] if "coordinates" in f else None
     v = f["velocity"][:, 2]
     check(v.max() > 60 and v.min() < -60, "the halves part", f"{v.min():.0f} and {v.max():.0f} m/s")
+    gone = run("removed", "materials.weldox.failure.action=remove")
+    r = last_frame("removed")
+    removed = find(gone, "removed_failed_points")
+    check(removed > 0 and find(gone, "failures") == removed == find(gone, "removed_points"),
+          "action remove: every failed point is taken out and counted", f"{removed}")
+    check(r["id"].size + removed == f["id"].size and not r["failed"].any(), "none of them is left")
+    check(np.all(np.diff(r["id"]) > 0) and r["id"].max() >= r["id"].size, "the others keep their ids")
+    check(abs(find(gone, "energy_residual_fraction")) < 1e-10
+          and abs((find(gone, "mass") + find(gone, "removed_mass")) / find(summary, "mass") - 1) < 1e-13,
+          "and the audit closes with what was removed")
     lines = SCENE.read_text(encoding="utf-8").splitlines(keepends=True)
     sound = ("damage", "failure:", "failed_share")
     pathlib.Path("sound.yaml").write_text("".join(l for l in lines if not any(w in l for w in sound)), encoding="utf-8")

@@ -169,6 +169,14 @@ TEST_SUITE("verification") {
     }
   }
 
+  TEST_CASE("spinning disc: a fixed reference turns with it") {
+    for (const char* reference : {"method.reference=initial", "method.reference=adaptive"}) {
+      const Loss loss = spin(32, 0.5, false, {reference});
+      CHECK(loss.angular_momentum < 1e-3);
+      CHECK(loss.energy < 3e-3);
+    }
+  }
+
   TEST_CASE("spinning disc: what the affine part is for") {
     // Points of spacing h/2 with the second moment h^2/4 of their shape function.
     const double h = 0.1, mass = 1000 * std::numbers::pi, squares = 0.5 + h * h * (0.5 - 1.0 / 24);

@@ -62,5 +62,7 @@ class Body {
 
 /// The domain of a scene as a box in grid axes.
 Box domain_box(const Scene& scene);
+/// Some side of the domain is a unilateral wall.
+bool has_wall(const Scene& scene);
 
 }  // namespace krater

@@ -23,6 +23,9 @@ struct Totals {
       0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
 };
 
+/// What a fault means, in words.
+const char* text_of(FaultKind kind);
+
 class Simulation {
  public:
   /// The scene must outlive the simulation. Throws InputError.
@@ -68,6 +71,8 @@ class Simulation {
   void place_points();
   void choose_first_step();
   void apply_body_force();
+  bool walls_act_on_points() const;
+  std::array<double, 3> apply_point_walls(double dt);  ///< force on the points [N]
   double next_step(double until);
   std::string describe_limit() const;
   std::string describe_fault(const StepFault& fault) const;
@@ -80,6 +85,7 @@ class Simulation {
   std::vector<BodyKernelData> kernel_data_;
   BlockGrid grid_;
   BoundarySet boundary_;
+  ContactSet contact_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
   double time_ = 0, dt_ = 0, dt_free_ = 0,

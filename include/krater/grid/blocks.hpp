@@ -7,15 +7,19 @@
 /// exist only where points are, so the size of the domain costs nothing, and nothing depends on the
 /// number of threads.
 ///
+/// Every body belongs to a velocity field, and every field has node blocks of its own: bodies of
+/// one field stick together, fields know nothing of each other until contact or, with a fixed
+/// reference configuration, for ever.
+///
 /// Nodes are counted from the lower domain plane, shifted by one: the plane is storage index 1, the
 /// ghost beyond it 0.
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <vector>
 
 #include "krater/core/aligned.hpp"
 #include "krater/core/batch_types.hpp"
+#include "krater/grid/key_index.hpp"
 
 namespace krater {
 
@@ -41,11 +45,6 @@ struct GridGeometry {
   }
 };
 
-struct BlockKey {
-  std::array<std::int32_t, 3> i{};
-  auto operator<=>(const BlockKey&) const = default;
-};
-
 /// The block that owns a position of `dimension` coordinates.
 BlockKey block_of(const GridGeometry& geometry, const double* position);
 
@@ -65,6 +64,7 @@ struct PatchResult {
   double kinetic = 0;        ///< [J], affine part included
   double internal = 0;       ///< [J]
   double external_work = 0;  ///< [J] of body forces in the step
+  double stretch = 0;        ///< fixed reference: largest |F^T F - I|
   Ledger ledger;
   Fault fault;
 };
@@ -72,6 +72,7 @@ struct PatchResult {
 struct Patch {
   BlockKey key;
   int body = 0;
+  int field = 0;  ///< velocity field of the body, filled by rebuild
   int count = 0;
   AlignedBuffer records;             ///< lane groups of the body's layout
   AlignedBuffer tile;                ///< tile_nodes * kNodeDoubles
@@ -84,6 +85,12 @@ struct Patch {
   PatchResult result;
   int groups() const { return (count + 7) / 8; }
 };
+
+/// Component at `offset` (doubles in the record of a lane group of `stride`) of point i.
+inline double& component(Patch& patch, int stride, int offset, int i) {
+  return patch.records.data()[static_cast<std::size_t>(i / 8) * static_cast<std::size_t>(stride) +
+                              static_cast<std::size_t>(offset + i % 8)];
+}
 
 struct TileRef {
   int patch;
@@ -98,9 +105,11 @@ struct NodeSums {
 
 struct NodeBlock {
   BlockKey key;
+  int field = 0;
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   bool at_boundary = false;
-  bool still = false;  ///< every v+ and dv of the block is exactly zero
+  bool at_wall = false;  ///< holds columns of a unilateral wall
+  bool still = false;    ///< every v+ and dv of the block is exactly zero
   bool inert =
       false;  ///< and so were its momenta and forces: nothing to compute while its tiles stay
   double* nodes = nullptr;  ///< kBlockNodes * kNodeDoubles
@@ -113,12 +122,15 @@ class BlockGrid {
 
   const GridGeometry& geometry() const { return geometry_; }
   std::vector<Patch> patches;          ///< sorted by (key, body) after rebuild()
-  std::vector<NodeBlock> node_blocks;  ///< sorted by key
+  std::vector<NodeBlock> node_blocks;  ///< sorted by (key, field)
   std::vector<TileRef> tile_refs;
 
-  int find_patch(const BlockKey& key, int body) const;               ///< -1: none
-  int find_node_block(const BlockKey& key) const;                    ///< -1: none
-  double* find_node(const std::array<int, 3>& storage_index) const;  ///< nullptr: not stored
+  /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
+  void set_fields(std::vector<int> field_of_body) { field_of_body_ = std::move(field_of_body); }
+  int find_patch(const BlockKey& key, int body) const;        ///< -1: none
+  int find_node_block(const BlockKey& key, int field) const;  ///< -1: none
+  /// nullptr: not stored
+  double* find_node(const std::array<int, 3>& storage_index, int field) const;
   /// Sort patches, drop empty ones if asked, lay out node blocks and all links.
   void rebuild(bool drop_empty);
 
@@ -127,6 +139,8 @@ class BlockGrid {
   void link_patches();
 
   GridGeometry geometry_;
+  std::vector<int> field_of_body_;
+  KeyIndex patch_index_, node_index_;
   AlignedBuffer node_memory_;
 };
 

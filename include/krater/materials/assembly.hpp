@@ -5,8 +5,8 @@
 ///   kinematics, viscosity, strength (trial, return and work in one), eos, heating, signal speed.
 /// With damage or another rate the strength is several stages, which hand the effective deviator on
 /// in a local record:
-///   trial -> return -> growth of damage -> carried stress             coupling: effective
-///   trial -> flow stress -> growth -> return with damage -> carried   coupling: rate
+///   start -> trial -> return -> growth of damage -> carried stress             coupling: effective
+///   start -> trial -> flow stress -> growth -> return with damage -> carried   coupling: rate
 /// so that neither rates nor damage laws multiply the compiled yield laws.
 #include <limits>
 #include <memory>

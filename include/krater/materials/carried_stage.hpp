@@ -9,24 +9,47 @@
 #pragma once
 
 #include "krater/materials/damage_stage.hpp"
+#include "krater/materials/start_stage.hpp"
 #include "krater/materials/strength_stage.hpp"
 
 namespace krater::inline KRATER_ISA {
 
+/// Plastic work of the step, `q` the carried stress. `dilates`: flow opened voids against `p_`.
+template <bool dilates>
+class PlasticWorkOfStep {
+ public:
+  explicit PlasticWorkOfStep(Layout& layout)
+      : increment_{layout.local_optional<field::PlasticIncrement>()} {
+    if constexpr (dilates) {
+      p_ = layout.input<field::Pressure>("plastic work");
+      opened_ = layout.local_input<field::OpenedVolume>("plastic work");
+    }
+  }
+  KRATER_FORCE_INLINE Pack operator()(const BatchData& batch, int g, Pack q, Pack v) const {
+    const Pack work = q * view(batch, increment_)(g) * v;
+    if constexpr (dilates) return dilatant_work(work, view(batch, p_)(g), view(batch, opened_)(g));
+    return work;
+  }
+
+ private:
+  LocalOptional<field::PlasticIncrement> increment_;  // absent: a law that never yields
+  Input<field::Pressure> p_{-1};
+  LocalInput<field::OpenedVolume> opened_{-1};
+};
+
 /// A sound material whose deviator was updated in several stages for its rate's sake.
+template <bool dilates>
 class SoundStage final : public Stage {
  public:
-  SoundStage(const MaterialConstants& constants, Layout& layout)
-      : G_{constants.shear_modulus},
+  explicit SoundStage(Layout& layout)
+      : flow_{layout},
         s_{layout.state<field::DeviatoricStress>(0.0, kName)},
         mass_{layout.input<field::Mass>(kName)},
         strain_{layout.local_input<field::StrainStep>(kName)},
         volumes_{layout.local_input<field::SpecificVolumes>(kName)},
         effective_{layout.local_input<field::EffectiveDeviator>(kName)},
         q_{layout.local_optional<field::EquivalentStress>()},
-        increment_{layout.local_optional<field::PlasticIncrement>()},
         work_{layout.local_output<field::SpecificWork>(kName)},
-        shear_{layout.local_output<field::ShearModulus>(kName)},
         plastic_work_{layout.local_output<field::PlasticWork>(kName)} {}
 
   StageOrder order() const override { return StageOrder::carried; }
@@ -40,8 +63,7 @@ class SoundStage final : public Stage {
       const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
       work.set(g, work(g) + deviatoric_work(load_sym3(s_p, g), s, dE, v(g, 0), v(g, 1)));
       store_sym3(s_p, g, s);
-      view(batch, shear_).set(g, Pack(G_));
-      const Pack plastic = view(batch, q_)(g) * view(batch, increment_)(g) * v(g, 1);
+      const Pack plastic = flow_(batch, g, view(batch, q_)(g), v(g, 1));
       view(batch, plastic_work_).set(g, plastic);
       batch.ledger->plastic_work += sum(view(batch, mass_)(g) * plastic);
     }
@@ -49,26 +71,24 @@ class SoundStage final : public Stage {
 
  private:
   static constexpr const char* kName = "deviator";
-  double G_;
+  PlasticWorkOfStep<dilates> flow_;
   State<field::DeviatoricStress> s_;
   Input<field::Mass> mass_;
   LocalInput<field::StrainStep> strain_;
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::EffectiveDeviator> effective_;
-  LocalOptional<field::EquivalentStress> q_;  // these two: yielding laws only
-  LocalOptional<field::PlasticIncrement> increment_;
+  LocalOptional<field::EquivalentStress> q_;  // yielding laws only
   LocalOutput<field::SpecificWork> work_;
-  LocalOutput<field::ShearModulus> shear_;
   LocalOutput<field::PlasticWork> plastic_work_;
 };
 
+template <bool dilates>
 class CarriedStage final : public Stage {
  public:
-  CarriedStage(bool degrades, DegradePressure mode, const MaterialConstants& constants,
-               Layout& layout)
+  CarriedStage(bool degrades, DegradePressure mode, Layout& layout)
       : degrades_{degrades ? 1.0 : 0.0},
         loss_{pressure_loss(degrades, mode)},
-        G_{constants.shear_modulus},
+        flow_{layout},
         s_{layout.state<field::DeviatoricStress>(0.0, kName)},
         phi_{layout.state<field::Damage>(0.0, kName)},
         failed_{layout.state<field::Failed>(0.0, kName)},
@@ -128,8 +148,9 @@ class CarriedStage final : public Stage {
     const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
     work.set(g, work(g) + deviatoric_work(load_sym3(s_p, g), s, dE, v(g, 0), v(g, 1)));
     store_sym3(s_p, g, s);
-    view(batch, shear_).set(g, select(failed, Pack(0.0), Pack(G_)));
-    const Pack plastic = intact * view(batch, q_)(g) * view(batch, increment_)(g) * v(g, 1);
+    const auto shear = view(batch, shear_);
+    shear.set(g, select(failed, Pack(0.0), shear(g)));
+    const Pack plastic = flow_(batch, g, intact * view(batch, q_)(g), v(g, 1));
     view(batch, plastic_work_).set(g, plastic);
     batch.ledger->plastic_work += sum(view(batch, mass_)(g) * plastic);
     loss.set(g, 0, select(failed, Pack(1.0), loss_.tension * phi));
@@ -138,7 +159,7 @@ class CarriedStage final : public Stage {
 
   double degrades_;
   PressureLoss loss_;
-  double G_;
+  PlasticWorkOfStep<dilates> flow_;
   State<field::DeviatoricStress> s_;
   State<field::Damage> phi_;
   State<field::Failed> failed_;

@@ -4,6 +4,7 @@
 /// and the manual.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,9 @@ struct LawInfo {
   std::string equation;
   std::string reference;
   bool needs_shear_modulus;  ///< the material must have shear_modulus > 0
-  bool in_parts;             ///< can be taken apart for damage and other rates
   bool whole_stress;         ///< gives the pressure too: must be used without an eos
   bool yields;               ///< strength with a yield stress: what damage and heating need
+  bool needs_eos;            ///< heating whose temperature is that of the equation of state
 };
 
 const std::vector<LawInfo>& catalogue();
@@ -39,6 +40,11 @@ std::vector<std::string> parameter_words(const ParameterInfo& info);
 
 /// Does a damage law degrade the stress, or only tell the failure?
 bool law_degrades(int law, const double* values, const MaterialConstants& constants);
+
+/// Heat c_v T that an equation of state with a caloric relation of its own has at the start
+/// [J/kg]; nothing where the temperature counts from the start.
+std::optional<double> thermal_energy_at_start(int law, const double* values,
+                                              const MaterialConstants& constants);
 
 /// What is wrong between parameters that are each in range (T_melt below T_ref), or nullptr.
 const char* law_problem(int law, const double* values, const MaterialConstants& constants);

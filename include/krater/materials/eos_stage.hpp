@@ -111,8 +111,9 @@ KRATER_FORCE_INLINE CarriedEnergyStep<Real> close_carried(const PressureSplit<Re
           carried < Real(-spall_strength)};
 }
 
-/// `carries`: damage or a spall strength stands between p~ and p^.
-template <class Law, bool carries>
+/// `carries`: damage or a spall strength stands between p~ and p^. `has_voids`: the strength law
+/// keeps voids out of the equation of state and limits the effective tension.
+template <class Law, bool carries, bool has_voids>
 class EosStage final : public Stage {
  public:
   EosStage(const Law& law, double spall_strength, Layout& layout)
@@ -123,10 +124,13 @@ class EosStage final : public Stage {
         e_{layout.state<field::InternalEnergy>(energy_at_start(law), Law::name)},
         c_{layout.state<field::SoundSpeed>(law.c0, Law::name)},
         volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
-        work_{layout.local_input<field::SpecificWork>(Law::name)},
-        loss_{layout.local_optional<field::CarriedLoss>()},
-        voids_{layout.optional<field::VoidVolume>()},
-        tension_limit_{layout.local_optional<field::TensionLimit>()} {}
+        work_{layout.local_input<field::SpecificWork>(Law::name)} {
+    if constexpr (carries) loss_ = layout.local_optional<field::CarriedLoss>();
+    if constexpr (has_voids) {
+      voids_ = layout.input<field::VoidVolume>(Law::name);
+      tension_limit_ = layout.local_input<field::TensionLimit>(Law::name);
+    }
+  }
 
   StageOrder order() const override { return StageOrder::equation_of_state; }
 
@@ -143,7 +147,7 @@ class EosStage final : public Stage {
       Pack v = v_p(g, 1);
       const Pack per_rho = v;
       const Pack dv = v - v_p(g, 0);
-      if (voids_.offset >= 0) {
+      if constexpr (has_voids) {
         v = v - view(batch, voids_)(g);
         rho = 1.0 / v;
       }
@@ -166,9 +170,11 @@ class EosStage final : public Stage {
         step = advance_energy(law_, rho, v, p_p(g), e_p(g), dv, w_p(g));
         effective = step.pressure;
       }
-      if (tension_limit_.offset >= 0) {
+      if constexpr (has_voids) {
         const Pack least = view(batch, tension_limit_)(g);
-        step = limited(step, least, dv);
+        Pack carried = least;
+        if constexpr (carries) carried = least * (Pack(1.0) - view(batch, loss_)(g, 0));
+        step = limited(step, carried, dv);
         effective = max(least, effective);
       }
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
@@ -194,9 +200,9 @@ class EosStage final : public Stage {
   State<field::SoundSpeed> c_;
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::SpecificWork> work_;
-  LocalOptional<field::CarriedLoss> loss_;
-  Optional<field::VoidVolume> voids_;
-  LocalOptional<field::TensionLimit> tension_limit_;
+  LocalOptional<field::CarriedLoss> loss_{-1};  // absent: spall of sound material
+  Input<field::VoidVolume> voids_{-1};
+  LocalInput<field::TensionLimit> tension_limit_{-1};
 };
 
 }  // namespace krater::inline KRATER_ISA

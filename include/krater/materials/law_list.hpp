@@ -14,6 +14,7 @@
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
 #include "krater/materials/eos/stiffened_gas.hpp"
 #include "krater/materials/eos/tillotson.hpp"
+#include "krater/materials/heating/internal_energy.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
 #include "krater/materials/strength/drucker_prager.hpp"
 #include "krater/materials/strength/elastic.hpp"
@@ -56,6 +57,7 @@ using AllLaws = LawList<Elastic,                 //
                         Jwl,                     //
                         Tillotson,               //
                         BulkViscosity,           //
-                        PlasticWorkHeating>;
+                        PlasticWorkHeating,      //
+                        EnergyHeating>;
 
 }  // namespace krater::inline KRATER_ISA

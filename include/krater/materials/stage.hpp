@@ -50,16 +50,33 @@ enum class Coupling : int { effective, rate };
 /// Which pressure damage degrades (Decision 6).
 enum class DegradePressure : int { tension, none, all };
 
+/// What becomes of a point that has failed: it loses deviator and tension and keeps its mass, or it
+/// is taken out of the computation at the end of the step, with its mass, momentum and energy
+/// booked.
+enum class FailureAction : int { strength_loss, remove };
+
 /// The deviator's update in stages of its own (materials/assembly.hpp says in which order): where a
 /// scene has damage or a rate other than truesdell.
-enum class Part : int { trial, flow_stress, plastic_return, rate_return, growth, carried };
+enum class Part : int { start, trial, flow_stress, plastic_return, rate_return, growth, carried };
 struct PartRequest {
   Part part;
-  int law = -1;  ///< of strength, or for growth and carried of damage (-1: sound for ever)
+  int law = -1;  ///< of strength, or for growth of damage; trial and carried need none
   const double* values = nullptr;
   MaterialConstants constants;
   Rate rate = Rate::truesdell;
+  bool damaged = false;   ///< damage is a column of this body
+  bool degrades = false;  ///< and the stress is (1 - phi) s~; otherwise phi only tells the failure
   DegradePressure degrade = DegradePressure::tension;
+};
+
+/// `heating: energy`: the temperature of an equation of state (heating/internal_energy.hpp).
+struct EnergyHeatingRequest {
+  int eos = -1;
+  const double* eos_values = nullptr;
+  double c_v = 0;  ///< [J/(kg K)]
+  MaterialConstants constants;
+  bool carries = false;   ///< the carried pressure may not be that of the equation of state
+  bool degrades = false;  ///< as of PartRequest
 };
 
 /// Makes stages of one instruction-set level (materials/stages_hot.cpp is compiled once per level).
@@ -72,6 +89,7 @@ struct StageFactory {
   /// `spall_strength` (infinite: never).
   Stage* (*carrying_eos)(int law, const double* values, const MaterialConstants& constants,
                          double spall_strength, Layout& layout);
+  Stage* (*energy_heating)(const EnergyHeatingRequest& request, Layout& layout);
   Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
   Stage* (*signal_speed)(double q_lin, double q_quad,
                          Layout& layout);  ///< always last: c_L, Qv -> signal speed

@@ -9,6 +9,7 @@
 #include "krater/materials/law.hpp"
 #include "krater/materials/strength/pack_pair.hpp"
 #include "krater/materials/strength/radial_return.hpp"
+#include "krater/materials/strength/start_reader.hpp"
 #include "krater/materials/strength/trial_deviator.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -62,13 +63,19 @@ KRATER_FORCE_INLINE Real deviatoric_work(const Sym3<Real>& s0, const Sym3<Real>&
   return 0.25 * (v0 + v1) * contract(s0 + s1, dE);
 }
 
+KRATER_FORCE_INLINE StartState<PackPair> paired(const StartState<Pack>& a,
+                                                const StartState<Pack>& b) {
+  return {{a.temperature, b.temperature}, {a.pressure, b.pressure}, {a.compression, b.compression}};
+}
+
 template <class Law>
 class StrengthStage final : public Stage {
  public:
   StrengthStage(const Law& law, const MaterialConstants& constants, Layout& layout)
       : law_{law},
         G_{constants.shear_modulus},
-        per_rho0_{1.0 / constants.density},
+        start_{constants, layout},
+        voids_{layout},
         s_{layout.state<field::DeviatoricStress>(0.0, Law::name)},
         mass_{layout.input<field::Mass>(Law::name)},
         dtL_{layout.local_input<field::StepGradient>(Law::name)},
@@ -79,16 +86,7 @@ class StrengthStage final : public Stage {
     if constexpr (Yielding<Law>) {
       eps_ = layout.state<field::PlasticStrain>(0.0, Law::name);
       plastic_work_ = layout.local_output<field::PlasticWork>(Law::name);
-      if constexpr (Law::reads_temperature) {
-        // Declared, never written here: without heating it is the constant initial temperature.
-        temperature_ = {
-            layout.state<field::Temperature>(constants.initial_temperature, Law::name).offset};
-      }
       if constexpr (ReadsPressure<Law>) pressure_ = layout.input<field::Pressure>(Law::name);
-      if constexpr (Dilatant<Law>) {
-        voids_ = layout.state<field::VoidVolume>(0.0, Law::name);
-        tension_limit_ = layout.local_output<field::TensionLimit>(Law::name);
-      }
     }
   }
 
@@ -109,13 +107,8 @@ class StrengthStage final : public Stage {
 
  private:
   KRATER_FORCE_INLINE StartState<Pack> start(const BatchData& batch, int g) const {
-    StartState<Pack> state{Pack(0.0)};
-    if constexpr (Law::reads_temperature) state.temperature = view(batch, temperature_)(g);
-    if constexpr (ReadsPressure<Law>) {
-      state.pressure = view(batch, pressure_)(g);
-      state.compression = Pack(per_rho0_) / view(batch, volumes_)(g, 0);
-    }
-    return state;
+    if constexpr (ReadsPressure<Law>) return start_(batch, g, view(batch, pressure_)(g));
+    return start_(batch, g, Pack(0.0));
   }
 
   template <class Modulus>
@@ -130,12 +123,10 @@ class StrengthStage final : public Stage {
     const Trial<Pack> trial_g = trial(batch, g, G_g);
     const Trial<Pack> trial_h = trial(batch, h, G_h);
     const auto eps = view(batch, eps_);
-    const StartState<PackPair> start_both{{start_g.temperature, start_h.temperature},
-                                          {start_g.pressure, start_h.pressure},
-                                          {start_g.compression, start_h.compression}};
-    const PlasticStep<PackPair> step = radial_return(
-        curve_at(law_, start_both), PackPair{trial_g.q, trial_h.q}, PackPair{eps(g), eps(h)},
-        both(G_g, G_h), PackPair{trial_g.strain, trial_h.strain}, batch.dt);
+    const PlasticStep<PackPair> step =
+        radial_return(curve_at(law_, paired(start_g, start_h)), PackPair{trial_g.q, trial_h.q},
+                      PackPair{eps(g), eps(h)}, both(G_g, G_h),
+                      PackPair{trial_g.strain, trial_h.strain}, batch.dt);
     yield(batch, g, trial_g, G_g, {step.d.a, step.stress.a, step.yielding.a, step.unconverged.a});
     if (h != g)
       yield(batch, h, trial_h, G_h, {step.d.b, step.stress.b, step.yielding.b, step.unconverged.b});
@@ -145,17 +136,13 @@ class StrengthStage final : public Stage {
   KRATER_FORCE_INLINE static double both(double G, double) { return G; }
   KRATER_FORCE_INLINE static PackPair both(Pack G, Pack H) { return {G, H}; }
 
-  /// Specific plastic work q d v; less the work of opening voids against the pressure.
   KRATER_FORCE_INLINE Pack plastic_work(const BatchData& batch, int g,
                                         const PlasticStep<Pack>& step) const {
     const Pack v = view(batch, volumes_)(g, 1);
     const Pack work = step.stress * step.d * v;
     if constexpr (Dilatant<Law>) {
-      const auto voids = view(batch, voids_);
-      const Pack opened = law_.bulking(voids(g), v) * step.d;
-      voids.set(g, voids(g) + opened);
-      view(batch, tension_limit_).set(g, Pack(law_.tension_limit()));
-      return max(Pack(0.0), fnma(view(batch, pressure_)(g), opened, work));
+      const Pack opened = voids_.open(batch, g, law_, step.d, v);
+      return dilatant_work(work, view(batch, pressure_)(g), opened);
     }
     return work;
   }
@@ -187,7 +174,9 @@ class StrengthStage final : public Stage {
   }
 
   Law law_;
-  double G_, per_rho0_;
+  double G_;
+  StartReader<Law> start_;
+  VoidsOf<Law> voids_;
   State<field::DeviatoricStress> s_;
   Input<field::Mass> mass_;
   LocalInput<field::StepGradient> dtL_;
@@ -195,12 +184,9 @@ class StrengthStage final : public Stage {
   LocalInput<field::SpecificVolumes> volumes_;
   LocalOutput<field::SpecificWork> work_;
   LocalOutput<field::ShearModulus> shear_;
-  State<field::PlasticStrain> eps_{-1};  // these three: yielding laws only
+  State<field::PlasticStrain> eps_{-1};  // these two: yielding laws only
   LocalOutput<field::PlasticWork> plastic_work_{-1};
-  Input<field::Temperature> temperature_{-1};
   Input<field::Pressure> pressure_{-1};  // laws that read it only
-  State<field::VoidVolume> voids_{-1};   // these two: dilatant laws only
-  LocalOutput<field::TensionLimit> tension_limit_{-1};
 };
 
 }  // namespace krater::inline KRATER_ISA

@@ -12,16 +12,16 @@
 
 namespace krater::inline KRATER_ISA {
 
-/// `damaged`: damage is a column of this body; it degrades the stress where `degrades` is 1.
+/// `damaged`: damage is a column of this body; it degrades the stress where `degrades`.
 template <class RateForm, bool damaged>
 class TrialStage final : public Stage {
  public:
-  TrialStage(double G, double degrades, Layout& layout)
-      : G_{G},
-        degrades_{degrades},
+  TrialStage(bool degrades, Layout& layout)
+      : degrades_{degrades ? 1.0 : 0.0},
         s_{layout.input<field::DeviatoricStress>(kName)},
         dtL_{layout.local_input<field::StepGradient>(kName)},
         strain_{layout.local_input<field::StrainStep>(kName)},
+        shear_{layout.local_input<field::ShearModulus>(kName)},
         effective_{layout.local_output<field::EffectiveDeviator>(kName)} {
     if constexpr (RateForm::needs_F) F_ = layout.input<field::DeformationGradient>(kName);
     if constexpr (damaged) {
@@ -42,7 +42,7 @@ class TrialStage final : public Stage {
         s = (Pack(1.0) / fnma(Pack(degrades_), view(batch, phi_)(g), Pack(1.0))) * s;
       StepMotion<Pack> motion{load_mat3(dtL_p, g), load_sym3(dE_p, g), {}};
       if constexpr (RateForm::needs_F) motion.F = load_mat3(view(batch, F_), g);
-      Sym3<Pack> trial = RateForm::trial(s, motion, G_);
+      Sym3<Pack> trial = RateForm::trial(s, motion, view(batch, shear_)(g));
       if constexpr (damaged) {
         const Mask failed = view(batch, failed_)(g) > Pack(0.5);
         const auto kept = [&](Pack x) { return select(failed, Pack(0.0), x); };
@@ -55,10 +55,11 @@ class TrialStage final : public Stage {
 
  private:
   static constexpr const char* kName = "rate";
-  double G_, degrades_;
+  double degrades_;
   Input<field::DeviatoricStress> s_;
   LocalInput<field::StepGradient> dtL_;
   LocalInput<field::StrainStep> strain_;
+  LocalInput<field::ShearModulus> shear_;
   LocalOutput<field::EffectiveDeviator> effective_;
   Input<field::DeformationGradient> F_{-1};
   Input<field::Damage> phi_{-1};

@@ -53,6 +53,12 @@ struct Quantity {
   double value = 0;
 };
 
+/// A column of a table, as `krater point` writes them: all of one length.
+struct TableColumn {
+  std::string name, unit, meaning;
+  std::vector<double> values;
+};
+
 /// Everything needed to continue with the same bits: named blobs, written and read verbatim (NaN
 /// payloads, -0.0 and denormals included). At most one of the three arrays is filled.
 struct CheckpointBlob {
@@ -113,7 +119,9 @@ class ResultsFolder {
   void write_frame(const OutputFrame& frame);  ///< frames/NNNNNN.h5, frames.h5, frames.xmf
   void write_history(
       const std::vector<Quantity>& row);  ///< a line of history.csv; the first column is time
-  void write_checkpoint(const Checkpoint& checkpoint);                ///< checkpoint.h5
+  void write_checkpoint(const Checkpoint& checkpoint);  ///< checkpoint.h5
+  /// NAME.csv and NAME.h5, whole.
+  void write_table(const std::string& name, const std::vector<TableColumn>& columns);
   void write_summary(const Json& summary);                            ///< summary.json
   void write_text(const std::string& name, const std::string& text);  ///< resolved.yaml, log.txt
   void flush();  ///< history.h5 catches up with history.csv

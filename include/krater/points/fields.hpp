@@ -62,6 +62,10 @@ KRATER_FIELD(DeformationGradient, "deformation_gradient", "1", 9,
              "F, row-major, from the start of the run");
 KRATER_FIELD(ReferencePosition, "reference_position", "m", kPerAxis,
              "position at the start of the run");
+KRATER_FIELD(ConfigurationPosition, "configuration_position", "m", kPerAxis,
+             "position in the reference configuration that carries the weights");
+KRATER_FIELD(ConfigurationMap, "configuration_map", "1", kPerAxisSquared,
+             "F from the reference configuration to now, over grid axes");
 KRATER_FIELD(BodyAcceleration, "body_acceleration", "m/s^2", kPerAxis, "body force per mass");
 KRATER_FIELD(GridVelocity, "grid_velocity", "m/s", kPerAxis,
              "interpolated grid velocity of the step (musl, xpic)");
@@ -79,6 +83,9 @@ KRATER_FIELD(SpecificVolumes, "specific_volumes", "m^3/kg", 2, "v_n and v_n+1");
 KRATER_FIELD(SpecificWork, "specific_work", "J/kg", 1,
              "work of deviator and viscosity in the step");
 KRATER_FIELD(ShearModulus, "shear_modulus", "Pa", 1, "undamaged shear modulus of the step");
+KRATER_FIELD(EffectivePressure, "effective_pressure", "Pa", 1,
+             "pressure on the undamaged area at the start of the step");
+KRATER_FIELD(OpenedVolume, "opened_volume", "m^3/kg", 1, "voids opened by the step's plastic flow");
 KRATER_FIELD(TensionLimit, "tension_limit", "Pa", 1,
              "lowest pressure that the strength law lets the material carry");
 KRATER_FIELD(PlasticWork, "plastic_work", "J/kg", 1, "q d / rho of the step");

@@ -6,6 +6,7 @@
 /// z; plane strain x, z (y = 0); axisymmetric r = x, z (y = 0); r = sqrt(x^2 + y^2) everywhere.
 /// Assumption: one thread at a time may call an expression field, for the parser keeps its
 /// variables in the object.
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,5 +20,8 @@ std::shared_ptr<const FieldFunction> make_constant_field(const Triple& value);
 /// One expression per grid axis. Throws InputError with the reason, without file and line.
 std::shared_ptr<const FieldFunction> make_expression_field(
     Frame frame, const std::vector<std::string>& components);
+
+/// A function of the time t alone (and pi). Throws InputError as above.
+std::function<double(double)> make_time_function(const std::string& expression);
 
 }  // namespace krater

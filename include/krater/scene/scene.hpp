@@ -47,7 +47,9 @@ struct MaterialOptions {
   Rate rate = Rate::truesdell;
   Coupling coupling = Coupling::effective;                      ///< of damage
   DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage
+  FailureAction failure = FailureAction::strength_loss;
   std::optional<double> spall_strength;  ///< largest tension carried [Pa]; absent: no limit
+  std::vector<std::string> unused;       ///< keys of its card that the scene does not ask for
 };
 
 /// A vector field given by expressions in x y z r t (and X Y Z R: position at the start), or
@@ -106,6 +108,7 @@ struct Scene {
   GridOptions grid;
   TimeOptions time;
   MethodOptions method;
+  ContactOptions contact;
   std::vector<MaterialOptions> materials;
   std::vector<BodyOptions> bodies;
   std::shared_ptr<const FieldFunction> body_force;  ///< acceleration [m/s^2]; null: none

@@ -7,7 +7,7 @@
 ///   work of internal forces, body forces, walls: their sum is the grid's change of kinetic energy
 ///   transfer_out = 1/2 sum m_I |v+|^2 - KE_points,new;   dIE = sum m de;   time_centring = - W_int
 ///   - dIE residual     = d(KE + IE) + transfer_in + transfer_out + time_centring - W_ext - W_wall
-///   + removed
+///   - W_contact + removed
 /// The residual is an arithmetic check (round-off); the quality figure is energy_error_fraction.
 #include <array>
 
@@ -15,16 +15,29 @@
 
 namespace krater {
 
+/// Points taken out of the computation in a step: through an open side of the domain, or failed.
+struct Removed {
+  double count = 0, mass = 0, kinetic = 0, internal = 0;
+  std::array<double, 3> momentum{};
+  double failed = 0;       ///< of these, removed by failure
+  double reflections = 0;  ///< points put back at a closed side (round-off)
+};
+
 struct Audit {
   double kinetic = 0, internal = 0;  ///< of the points, now [J]
   double initial_kinetic = 0, initial_internal = 0;
   double transfer_in = 0, transfer_out = 0, time_centring = 0;  ///< sums over all steps [J]
   double internal_work = 0, external_work = 0, wall_work = 0;
+  double contact_work = 0;   ///< normal and friction [J]
+  double friction_work = 0;  ///< part of contact_work [J]
   double removed_energy = 0, removed_mass = 0, removed_points = 0;
+  double removed_failed = 0;  ///< of the removed points, those removed by failure
   std::array<double, 3> removed_momentum{}, wall_impulse{};
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
   double failures = 0, snap_backs = 0, spalls = 0;                                  ///< events
+  double new_references = 0;                                                        ///< events
+  double contact_pairs = 0;  ///< pairs of fields at nodes that pushed in the last step
   double wall_columns = 0;   ///< columns in contact in the last step
   double step_external = 0;  ///< work of body forces in the step under way [J]
 
@@ -33,21 +46,26 @@ struct Audit {
   struct StepEnergies {
     double kinetic, internal, grid_before, grid_after;
   };
+  /// Change of the grid's kinetic energy by planes or contact [J], of which `correction` belongs to
+  /// the forces: their power is taken with the velocity that the points see.
+  struct Constraint {
+    double work = 0, correction = 0;
+  };
   /// Book a step whose new kinetic and internal energy are already in place.
-  /// `wall`: change of the grid's kinetic energy by planes, of which `correction` belongs to the
-  /// forces: their power is taken with the velocity that the points see.
-  void book_step(const StepEnergies& e, double wall, double correction,
-                 const std::array<double, 3>& impulse, int columns);
+  void book_step(const StepEnergies& e, const Constraint& walls, const Constraint& contact);
   void book_events(const Ledger& ledger);
+  /// Walls that acted as body forces on points (fixed reference) during dt; `alone`: no other body
+  /// force did, so that their work can be told apart.
+  void book_point_walls(const std::array<double, 3>& force, double dt, bool alone);
   /// Energy and momentum that left with removed points.
-  void book_removed(double kinetic_gone, double internal_gone, double mass, double count,
-                    const std::array<double, 3>& momentum, double reflected);
+  void book_removed(const Removed& gone);
 
   /// (KE + IE now) - (at the start) + everything booked as gone or come: zero but for round-off
   /// [J].
   double residual(double measured_kinetic, double measured_internal) const {
     return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) +
-           transfer_in + transfer_out + time_centring - external_work - wall_work + removed_energy;
+           transfer_in + transfer_out + time_centring - external_work - wall_work - contact_work +
+           removed_energy;
   }
   /// (sum of transfers + time centring) / E_0, signed: what the scheme itself lost (positive) or
   /// gained. E_0 is the kinetic energy at the start, or the external work where a scene starts at

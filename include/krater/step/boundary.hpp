@@ -36,13 +36,20 @@ struct BoundaryWork {
 
 class BoundarySet {
  public:
-  BoundarySet(const GridGeometry& geometry, const BoundaryConditions& conditions)
-      : geometry_{geometry}, conditions_{conditions} {}
+  /// `fixed_reference`: nodes are not where the material is. A wall then holds the columns that lie
+  /// on it in the reference while their material is at the wall, see note_gaps(); what reaches the
+  /// wall from elsewhere is held point by point (step/reference.hpp).
+  BoundarySet(const GridGeometry& geometry, const BoundaryConditions& conditions,
+              bool fixed_reference = false)
+      : geometry_{geometry}, conditions_{conditions}, fixed_reference_{fixed_reference} {}
 
   const BoundaryConditions& conditions() const { return conditions_; }
   /// Find the columns of nodes at each plane and mark their blocks; call after
   /// BlockGrid::rebuild().
   void relink(BlockGrid& grid);
+  /// Fixed reference: nodes hold [m, sum S m x, ..]: how far the material of each wall column is
+  /// from the wall.
+  void note_gaps();
   /// symmetry, sticky: fold sums [m, p, f, V]; before the momentum update.
   void fold() const;
   /// wall, velocity: change v+ and dv of [v+, m, dv, V]; after the momentum update.
@@ -59,6 +66,7 @@ class BoundarySet {
  private:
   struct Column {
     double *ghost, *plane, *inner;
+    double gap;  ///< fixed reference: distance of the plane's material from the wall [m]
   };
   struct Plane {
     int axis;
@@ -72,6 +80,7 @@ class BoundarySet {
 
   GridGeometry geometry_;
   BoundaryConditions conditions_;
+  bool fixed_reference_;
   std::vector<Plane> planes_;
 };
 

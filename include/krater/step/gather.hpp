@@ -15,8 +15,8 @@ namespace krater::inline KRATER_ISA {
 
 /// The columns the gather touches, as views.
 struct GatherViews {
-  WriteView position, velocity, affine, kept;
-  ReadView mass, density, half_width, body_acceleration, energy, sound_speed, failed;
+  WriteView position, velocity, affine, kept, map;
+  ReadView grid_position, mass, density, half_width, body_acceleration, energy, sound_speed, failed;
   WriteView indicator;
   WriteView step_gradient, extra_dilatation;
   ReadView signal;
@@ -30,6 +30,8 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
           write(c.velocity),
           write(c.affine),
           write(c.grid_velocity),
+          write(c.map),
+          read(c.grid_position),
           read(c.mass),
           read(c.density),
           read(c.half_width),
@@ -101,7 +103,7 @@ struct PartTraits {
 };
 
 /// Velocity and position of 8 points; adds the work of body forces.
-template <class Frame, GatherPart Part>
+template <class Frame, class Configuration, GatherPart Part>
 KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Frame::dim>& n,
                                      const SweepSettings& s, int g, GatherSums& sums) {
   using T = PartTraits<Part>;
@@ -117,24 +119,39 @@ KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Fr
           fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), change, plus), sums.external);
       if constexpr (T::mean) carried = 0.5 * (old + fresh);
     }
-    if constexpr (T::keep) view.kept.set(g, a, plus);
+    if constexpr (T::keep || Configuration::fixed) view.kept.set(g, a, plus);
     if constexpr (T::kept) carried = view.kept(g, a);
     if constexpr (T::move) view.position.set(g, a, fma(Pack(s.dt), carried, view.position(g, a)));
   }
 }
 
-/// dt L over tensor axes into the local record; returns tr L.
-template <class Frame>
+/// dt L over tensor axes into the local record; on a fixed reference F goes on to the end of the
+/// step. Returns tr L.
+template <class Frame, class Configuration>
 KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
                                         Pack r, double dt, int g) {
   constexpr int D = Frame::dim;
+  Pack L[D][D];
+  for (int i = 0; i < D; ++i)
+    for (int a = 0; a < D; ++a) L[i][a] = n.G[a][i];
+  if constexpr (Configuration::fixed) {
+    const InverseMap<D> inverse = inverse_map<D>(reading(view.map), g);
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) {
+        L[i][j] = 0.0;
+        for (int a = 0; a < D; ++a) L[i][j] = fma(n.G[a][i], inverse.m[a][j], L[i][j]);
+      }
+    for (int i = 0; i < D; ++i)
+      for (int a = 0; a < D; ++a)
+        view.map.set(g, D * i + a, fma(Pack(dt), n.G[a][i], view.map(g, D * i + a)));
+  }
   Pack trace = 0.0;
   if constexpr (D == 2)
     for (int k = 0; k < 9; ++k) view.step_gradient.set(g, k, Pack(0.0));
   for (int i = 0; i < D; ++i) {
     for (int a = 0; a < D; ++a)
-      view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), dt * n.G[a][i]);
-    trace += n.G[i][i];
+      view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), dt * L[i][a]);
+    trace += L[i][i];
   }
   if constexpr (Frame::hoop) {
     const Pack hoop = n.V[0] / r;
@@ -198,7 +215,7 @@ KRATER_FORCE_INLINE void note_limit(PatchResult& r, Pack rate, int kind, int g, 
 }
 
 /// After the stages: shock indicator, time-step limits, internal energy of groups [first, last).
-template <int Dim>
+template <int Dim, class Configuration>
 void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s, int first,
                   int last, ReadView rate, bool indicator, GatherSums& sums) {
   const GridGeometry& grid = *s.geometry;
@@ -207,9 +224,17 @@ void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s,
     const Pack expansion = abs(rate(g)), c = view.sound_speed(g), signal = view.signal(g);
     if (indicator) view.indicator.set(g, select(c > Pack(0.0), expansion * grid.h / c, Pack(0.0)));
     Pack speed = 0.0;
-    for (int a = 0; a < Dim; ++a) speed = max(speed, abs(view.velocity(g, a)));
-    note_limit(patch.result, (speed + signal) * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g,
-               valid);
+    Pack fastest = signal;
+    if constexpr (Configuration::fixed) {  // theory 12: h times the smallest stretch, no |v|
+      const ReadView F = reading(view.map);
+      fastest = signal * sqrt(inverse_stretch_squared(inverse_map<Dim>(F, g)));
+      const double strain = hmax(select(valid, stretch_measure<Dim>(F, g), Pack(0.0)));
+      if (strain > patch.result.stretch) patch.result.stretch = strain;
+    } else {
+      for (int a = 0; a < Dim; ++a) speed = max(speed, abs(view.velocity(g, a)));
+      fastest = speed + signal;
+    }
+    note_limit(patch.result, fastest * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g, valid);
     note_limit(patch.result, 10.0 * expansion, 2, g, valid);
     sums.internal = fma(view.mass(g), view.energy(g), sums.internal);
   }

@@ -11,7 +11,7 @@ namespace krater::inline KRATER_ISA {
 inline constexpr int kStageGroups = 8;  ///< lane groups a stage works on at once
 
 /// First pass: nodes -> points.
-template <class Frame, class Shape, bool Affine, GatherPart Part>
+template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
 void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
                   const GatherViews& view, const CellSums& cells, GatherSums& sums) {
   constexpr int D = Frame::dim;
@@ -21,10 +21,10 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
   LaneWeights<D> lw;
   PointSums<D> n;
   for (int g = 0; g < patch.groups(); ++g) {
-    compute_weights<D, Shape, false>(grid, origin, reading(view.position), view.half_width, g, lw);
+    compute_weights<D, Shape, false>(grid, origin, view.grid_position, view.half_width, g, lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;
-    if (s.average_cells) store(cell, cell_index<D>(grid, origin, reading(view.position), g));
+    if (s.average_cells) store(cell, cell_index<D>(grid, origin, view.grid_position, g));
     const Pack r = view.position(g, 0);
 
     Pack check = n.V[0];
@@ -35,24 +35,26 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
       patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
 
     if constexpr (T::strain) {
-      const Pack trace = store_gradient<Frame>(view, n, r, s.dt, g);
+      const Pack trace = store_gradient<Frame, Configuration>(view, n, r, s.dt, g);
       view.extra_dilatation.set(
           g, trace);  // tr L for now; average_dilatation() turns it into the increment
       if (s.average_cells) cells.add(cell, view.mass(g) / view.density(g), trace);
-      if constexpr (Shape::has_width) {
+      if constexpr (Shape::has_width && !Configuration::fixed) {
         WriteView width{const_cast<double*>(view.half_width.base), view.half_width.stride};
         for (int a = 0; a < D; ++a)
           width.set(g, a, view.half_width(g, a) * fma(Pack(s.dt), n.G[a][a], Pack(1.0)));
       }
     }
     if constexpr (T::velocity || T::move || T::keep) {
-      move_points<Frame, Part>(view, n, s, g, sums);
+      move_points<Frame, Configuration, Part>(view, n, s, g, sums);
     }
     if constexpr (T::last) {
       finish_velocity<Frame, Affine>(view, n, lw, 0.25 * grid.h * grid.h, g, sums);
-      w.leavers[g] =
-          static_cast<unsigned char>(bits(left_block<D>(grid, origin, reading(view.position), g) &
-                                          first_lanes(patch.count - kLanes * g)));
+      unsigned gone = 0;
+      if constexpr (!Configuration::fixed)
+        gone = bits(left_block<D>(grid, origin, view.grid_position, g) &
+                    first_lanes(patch.count - kLanes * g));
+      w.leavers[g] = static_cast<unsigned char>(gone);
     }
   }
 }
@@ -74,7 +76,7 @@ KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSetti
 }
 
 /// Second pass: constitutive update.
-template <int Dim>
+template <int Dim, class Configuration>
 void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
                 const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
   const PointColumns& c = body.columns;
@@ -95,11 +97,12 @@ void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s
                           &patch.result.ledger,
                           &patch.result.fault};
     for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
-    after_stages<Dim>(patch, view, s, first, first + groups, rate, c.indicator >= 0, sums);
+    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0,
+                                     sums);
   }
 }
 
-template <class Frame, class Shape, bool Affine, GatherPart Part>
+template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
 void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
                   const SweepSettings& s, const SweepScratch& w) {
   constexpr int D = Frame::dim;
@@ -109,10 +112,10 @@ void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& bod
   const CellSums cells{w.cells, w.cells + kBlockNodes};
   if (s.average_cells) cells.clear();
   GatherSums sums;
-  gather_nodes<Frame, Shape, Affine, Part>(patch, s, w, view, cells, sums);
+  gather_nodes<Frame, Shape, Affine, Configuration, Part>(patch, s, w, view, cells, sums);
   if (T::strain && patch.result.fault.kind == FaultKind::none) {
     average_dilatation(patch, s, w, view, cells);
-    run_stages<D>(patch, body, s, w, view, sums);
+    run_stages<D, Configuration>(patch, body, s, w, view, sums);
     patch.result.internal = sum(sums.internal);
   }
   if (T::last) patch.result.kinetic = sum(sums.kinetic);

@@ -17,8 +17,11 @@ namespace krater {
 /// exist.
 struct PointColumns {
   int stride = 0, local_stride = 0;
+  int grid_position = -1;  ///< where the weights are taken: `position`, or on a fixed reference
+  int map = -1;            ///< fixed reference: F since then, over grid axes
   int position = -1, velocity = -1, mass = -1, density = -1;
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
+  int removed = -1;  ///< `failed` where failure takes points out of the computation
   int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
       local_rate = -1;  ///< local record
@@ -89,9 +92,17 @@ class Kernels {
 enum class KernelShape : int { quadratic_bspline, gimp, linear };
 enum class KernelFrame : int { axisymmetric, plane, space };
 
-/// `affine`: momentum carries L (TFLIP, APIC). Ownership passes to the caller; nullptr never.
+/// Which kernels. A fixed reference knows GatherPart::all only (update usl, no xpic).
+struct KernelChoice {
+  KernelFrame frame;
+  KernelShape shape;
+  bool affine;  ///< momentum carries L (TFLIP, APIC)
+  bool fixed_reference = false;
+};
+
+/// Ownership passes to the caller; nullptr never.
 struct KernelFactory {
-  Kernels* (*make)(KernelFrame frame, KernelShape shape, bool affine);
+  Kernels* (*make)(const KernelChoice& choice);
 };
 
 }  // namespace krater

@@ -5,28 +5,26 @@
 /// would cost as much as a step (numerics C2). Order is fixed: holes are filled from the end of the
 /// patch, arrivals are appended by neighbour (lexicographic), then by their old index; so the bits
 /// do not depend on threads.
-#include <array>
-
+#include "krater/step/audit.hpp"
 #include "krater/step/boundary.hpp"
 #include "krater/step/kernels.hpp"
 
 namespace krater {
 
-/// Points taken out of the computation through an open side of the domain.
-struct Removed {
-  double count = 0, mass = 0, kinetic = 0, internal = 0;
-  std::array<double, 3> momentum{};
-  double reflections = 0;  ///< points put back at a closed side (round-off)
-};
-
-/// Move leaving points of one patch into its outbox, or out of the computation. `leavers`: lane
-/// mask per group.
+/// Move leaving points of one patch into its outbox, or out of the computation: through an open
+/// side of the domain, or failed where the body's failure removes. `leavers`: lane mask per group.
 Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
                         const PointColumns& columns, const unsigned char* leavers);
 
 /// Hand the outboxes over; makes and drops patches as needed. Returns true when the topology
 /// changed (relink!).
 bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
+
+/// Points of `body` to the blocks of their present positions, however far that is, and out of the
+/// domain through its open sides; for a new reference configuration. Order: by id-preserving old
+/// order, so the bits do not depend on threads. Relink afterwards.
+Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
+                     const PointColumns& columns);
 
 /// Make the padding lanes of the last group copies of the last point with mass 0.
 void pad(Patch& patch, int stride, int mass_offset);

@@ -2,8 +2,8 @@
 #pragma once
 /// \file step/mpm_step.hpp
 /// One time step of the Material Point Method (theory 2-4, 11, 12):
-///   particles_to_grid -> fold symmetry planes -> momentum -> walls -> grid_to_particles (+
-///   stresses) -> migrate.
+///   particles_to_grid -> fold symmetry planes -> momentum -> contact -> walls ->
+///   grid_to_particles (+ stresses) -> migrate.
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
 /// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
 /// (Hammerquist & Nairn 2017) before the gather.
@@ -14,15 +14,17 @@
 #include "krater/core/stopwatch.hpp"
 #include "krater/step/audit.hpp"
 #include "krater/step/boundary.hpp"
+#include "krater/step/contact.hpp"
 #include "krater/step/kernels.hpp"
 #include "krater/step/migrate.hpp"
+#include "krater/step/reference.hpp"
 
 namespace krater {
 
 /// Phases of a step, for the account of its cost.
-enum class Phase : std::size_t { scatter, nodes, boundary, gather, migrate };
-inline constexpr std::array<const char*, 5> phase_names{"scatter", "nodes", "boundary",
-                                                        "gather_and_stress", "migrate"};
+enum class Phase : std::size_t { scatter, nodes, contact, boundary, gather, migrate };
+inline constexpr std::array<const char*, 6> phase_names{
+    "scatter", "nodes", "contact", "boundary", "gather_and_stress", "migrate"};
 
 /// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
 struct StepFault {
@@ -33,8 +35,9 @@ struct StepFault {
 class MpmStep {
  public:
   /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
-  /// the same kernels without the affine part, for projections of point velocities alone.
-  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
+  /// the same kernels without the affine part, for projections of point velocities alone; on a
+  /// fixed reference with it, for the present positions of nodes.
+  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, ContactSet& contact,
           const Kernels& kernels, const Kernels& plain, const std::vector<BodyKernelData>& bodies);
 
   /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
@@ -62,6 +65,13 @@ class MpmStep {
   void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                          double dt);
   GridEnergy momentum(double& dt, double force_share);
+  struct Constraints {
+    BoundaryWork walls;
+    ContactWork contact;
+    double work() const { return walls.work + contact.work; }
+  };
+  Constraints constrain();
+  void book(const Audit::StepEnergies& energies, const Constraints& constraints);
   void halve_until_safe(double& dt, double max_change);
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
@@ -72,6 +82,8 @@ class MpmStep {
   void provide_memory();
   void throw_faults() const;
   void migrate();
+  bool renew_references();
+  void measure_gaps();
   SweepSettings settings(double dt) const;
   SweepScratch scratch();
 
@@ -82,10 +94,12 @@ class MpmStep {
   MethodOptions method_;
   BlockGrid& grid_;
   BoundarySet& boundary_;
+  ContactSet& contact_;
   const Kernels& kernels_;
   const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;
   std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
+  std::vector<BodyKernelData> position_as_velocity_;  ///< fixed reference: x and F as v and L
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
 
   Audit audit_;

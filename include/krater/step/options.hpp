@@ -5,6 +5,7 @@
 /// (decisions).
 #include <array>
 #include <string>
+#include <vector>
 
 namespace krater {
 
@@ -13,6 +14,7 @@ using Triple = std::array<double, 3>;  ///< first `dimension` entries along the 
 enum class Shape { quadratic_bspline, gimp, linear };
 enum class Transfer { tflip, flip, apic, xpic };
 enum class Update { usl, musl, usf };
+enum class Reference { current, initial, adaptive };
 enum class BoundaryKind { open, symmetry, wall, sticky, velocity };
 
 struct Boundary {
@@ -32,9 +34,21 @@ struct MethodOptions {
   bool stagger = true;
   double jitter = 0;  ///< fraction of the point spacing
   unsigned seed = 1;
-  bool cell_averaging = true;   ///< numerics A5
-  double flip_fraction = 0.99;  ///< TFLIP alpha
-  bool dormant_blocks = true;   ///< skip what is at rest (the bits are the same)
+  bool cell_averaging = true;                ///< numerics A5
+  double flip_fraction = 0.99;               ///< TFLIP alpha
+  bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
+  Reference reference = Reference::current;  ///< configuration of the weights (theory 3)
+  double refresh_strain = 0.3;  ///< adaptive: largest Green-Lagrange strain before a new reference
+};
+
+/// Contact of velocity fields; every body has its own while it is on.
+struct ContactOptions {
+  bool active = false;
+  int fields = 0;
+  std::vector<double> friction;  ///< Coulomb coefficient by pair of fields, fields x fields
+  double friction_of(int a, int b) const {
+    return friction[static_cast<std::size_t>(a * fields + b)];
+  }
 };
 
 }  // namespace krater

@@ -4,7 +4,9 @@
 /// particles_to_grid of one patch:
 ///   m_i = sum S m_p,  p_i = sum S m_p (v_p + L_p (x_i - x_p)),  f_i = sum (S m_p b_p - V_p sigma_p
 ///   . grad S), V_i = sum S V_p;  axisymmetric: f_r -= V_p sigma_tt S/r_p.
+/// On a fixed reference V sigma F^-T takes the place of V sigma (step/configuration.hpp).
 #include "krater/step/cells.hpp"
+#include "krater/step/configuration.hpp"
 #include "krater/step/frames.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -28,7 +30,7 @@ void force_pressures(Patch& patch, const PointColumns& c, const SweepSettings& s
     for (int g = 0; g < patch.groups(); ++g) store(out + kLanes * g, p(g) + q(g));
     return;
   }
-  shock_switch<Dim>(patch, *s.geometry, column(c.position), column(c.indicator), out,
+  shock_switch<Dim>(patch, *s.geometry, column(c.grid_position), column(c.indicator), out,
                     patch.beta.data());
   const CellSums sums{w.cells, w.cells + kBlockNodes};
   sums.clear();
@@ -49,7 +51,7 @@ struct Channels {
   alignas(64) Pack B[Dim][8];
 };
 
-template <class Frame, bool Affine>
+template <class Frame, bool Affine, class Configuration>
 KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c,
                                        const SweepScratch& w, int g, Channels<Frame::dim>& out) {
   constexpr int D = Frame::dim;
@@ -68,11 +70,20 @@ KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c
   for (int a = 0; a < D; ++a)
     out.A[1 + a] = m * v(g, a), out.A[4 + a] = m * b(g, a), check += out.A[1 + a] + out.A[4 + a];
   if constexpr (Frame::hoop) out.A[4] = fnma(V, sigma(1, 1) / x(g, 0), out.A[4]), check += out.A[4];
+  InverseMap<D> inverse;
+  if constexpr (Configuration::fixed) inverse = inverse_map<D>(column(c.map), g);
+  const auto on_grid = [&](int i, int a) {  // component of J sigma F^-T; sigma where F = I
+    if constexpr (!Configuration::fixed) return sigma(tensor_axis<D>(i), tensor_axis<D>(a));
+    Pack first = 0.0;
+    for (int j = 0; j < D; ++j)
+      first = fma(sigma(tensor_axis<D>(i), tensor_axis<D>(j)), inverse.m[a][j], first);
+    return first;
+  };
   for (int a = 0; a < D; ++a) {
     for (Pack& channel : out.B[a]) channel = zero;
     for (int i = 0; i < D; ++i) {
       if constexpr (Affine) out.B[a][1 + i] = m * L(g, D * i + a), check += out.B[a][1 + i];
-      out.B[a][4 + i] = -(V * sigma(tensor_axis<D>(i), tensor_axis<D>(a)));
+      out.B[a][4 + i] = -(V * on_grid(i, a));
       check += out.B[a][4 + i];
     }
     transpose8(out.B[a]);
@@ -99,24 +110,23 @@ bool positions_valid(Patch& patch, const GridGeometry& grid, ReadView x) {
   return true;
 }
 
-template <class Frame, class Shape, bool Affine>
+template <class Frame, class Shape, bool Affine, class Configuration>
 void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
                    const SweepScratch& w) {
   constexpr int D = Frame::dim;
   const PointColumns& c = body.columns;
-  if (!positions_valid<D>(patch, *s.geometry, state_view(patch, c.position, c.stride, w.zeros)))
-    return;
+  const ReadView x = state_view(patch, c.grid_position, c.stride, w.zeros);
+  if (!positions_valid<D>(patch, *s.geometry, x)) return;
   force_pressures<D>(patch, c, s, w);
   double* tile = patch.tile.data();
   for (int i = 0; i < tile_nodes(D) * kNodeDoubles; i += 8) store(tile + i, Pack(0.0));
   const PatchOrigin origin = origin_of<D>(patch);
-  const ReadView x = state_view(patch, c.position, c.stride, w.zeros);
   const ReadView half_width = state_view(patch, c.half_width, c.stride, w.zeros);
   LaneWeights<D> lw;
   Channels<D> channels;
   for (int g = 0; g < patch.groups(); ++g) {
     compute_weights<D, Shape, Affine>(*s.geometry, origin, x, half_width, g, lw);
-    const Pack check = load_channels<Frame, Affine>(patch, c, w, g, channels);
+    const Pack check = load_channels<Frame, Affine, Configuration>(patch, c, w, g, channels);
     const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
     if (bad != 0 && patch.result.fault.kind == FaultKind::none)
       patch.result.fault = {FaultKind::not_finite_input, g, bad};

@@ -8,12 +8,12 @@
 
 namespace krater::inline KRATER_ISA {
 
-template <class Frame, class Shape, bool Affine>
+template <class Frame, class Shape, bool Affine, class Configuration>
 class TransferKernels final : public Kernels {
  public:
   void scatter(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
                const SweepScratch& w) const override {
-    scatter_patch<Frame, Shape, Affine>(patch, body, s, w);
+    scatter_patch<Frame, Shape, Affine, Configuration>(patch, body, s, w);
   }
   void sum_tiles(const BlockGrid& grid, NodeBlock& block) const override {
     sum_block<Frame::dim>(grid, block);
@@ -23,6 +23,7 @@ class TransferKernels final : public Kernels {
   }
   void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
               const SweepSettings& s, const SweepScratch& w, GatherPart part) const override {
+    if constexpr (Configuration::fixed) return run<GatherPart::all>(patch, grid, body, s, w);
     switch (part) {
       case GatherPart::all:
         return run<GatherPart::all>(patch, grid, body, s, w);
@@ -45,25 +46,25 @@ class TransferKernels final : public Kernels {
   template <GatherPart Part>
   static void run(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
                   const SweepSettings& s, const SweepScratch& w) {
-    gather_patch<Frame, Shape, Affine, Part>(patch, grid, body, s, w);
+    gather_patch<Frame, Shape, Affine, Configuration, Part>(patch, grid, body, s, w);
   }
 };
 
 /// New kernels of one frame; ownership passes to the caller.
-template <class Frame>
+template <class Frame, class Configuration>
 Kernels* make_transfer_kernels(KernelShape shape, bool affine) {
   switch (shape) {
     case KernelShape::linear:
-      if (affine) return new TransferKernels<Frame, Linear, true>;
-      return new TransferKernels<Frame, Linear, false>;
+      if (affine) return new TransferKernels<Frame, Linear, true, Configuration>;
+      return new TransferKernels<Frame, Linear, false, Configuration>;
     case KernelShape::gimp:
-      if (affine) return new TransferKernels<Frame, Gimp, true>;
-      return new TransferKernels<Frame, Gimp, false>;
+      if (affine) return new TransferKernels<Frame, Gimp, true, Configuration>;
+      return new TransferKernels<Frame, Gimp, false, Configuration>;
     case KernelShape::quadratic_bspline:
       break;
   }
-  if (affine) return new TransferKernels<Frame, QuadraticBSpline, true>;
-  return new TransferKernels<Frame, QuadraticBSpline, false>;
+  if (affine) return new TransferKernels<Frame, QuadraticBSpline, true, Configuration>;
+  return new TransferKernels<Frame, QuadraticBSpline, false, Configuration>;
 }
 
 }  // namespace krater::inline KRATER_ISA

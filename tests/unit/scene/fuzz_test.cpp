@@ -8,6 +8,7 @@
 #include <string>
 
 #include "krater/core/errors.hpp"
+#include "krater/scene/point.hpp"
 #include "scene_support.hpp"
 
 using namespace krater::test;
@@ -47,30 +48,44 @@ std::string damaged(std::string text, std::mt19937& random) {
   return text;
 }
 
+/// Reads 2000 damaged copies of `good`; each reads, or fails as InputError with its file's name.
+template <class Read>
+void check_damaged(const std::string& good, const Read& read) {
+  const ScratchFolder folder;
+  folder.write("materials/ofhc_copper.yaml",
+               slurp(source_path("inputs/materials/ofhc_copper.yaml")));
+  std::mt19937 random{12345};  // mt19937 is the same everywhere; distributions are not
+  int failures = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string text = damaged(good, random);
+    const std::string file = folder.write("scene.yaml", text);
+    try {
+      read(file);
+    } catch (const krater::InputError& error) {
+      ++failures;
+      const std::string message = error.what();
+      CHECK_MESSAGE(message.find(".yaml") != std::string::npos, message);
+    } catch (const std::exception& error) {
+      FAIL_CHECK("not an InputError: ", error.what(), "\n", text);
+    }
+  }
+  CHECK(failures > 500);
+  CHECK(failures < 2000);
+}
+
 }  // namespace
 
 TEST_SUITE("unit") {
   TEST_CASE("scene: 2000 damaged scenes read or fail as InputError with their file's name") {
-    const ScratchFolder folder;
-    const std::string good = slurp(source_path("inputs/taylor_copper.yaml"));
-    folder.write("materials/ofhc_copper.yaml",
-                 slurp(source_path("inputs/materials/ofhc_copper.yaml")));
-    std::mt19937 random{12345};  // mt19937 is the same everywhere; distributions are not
-    int failures = 0;
-    for (int i = 0; i < 2000; ++i) {
-      const std::string text = damaged(good, random);
-      const std::string file = folder.write("scene.yaml", text);
-      try {
-        krater::read_scene(file);
-      } catch (const krater::InputError& error) {
-        ++failures;
-        const std::string message = error.what();
-        CHECK_MESSAGE(message.find(".yaml") != std::string::npos, message);
-      } catch (const std::exception& error) {
-        FAIL_CHECK("not an InputError: ", error.what(), "\n", text);
-      }
-    }
-    CHECK(failures > 500);
-    CHECK(failures < 2000);
+    check_damaged(slurp(source_path("inputs/taylor_copper.yaml")),
+                  [](const std::string& file) { krater::read_scene(file); });
+  }
+
+  TEST_CASE("point: 2000 damaged point files read or fail as InputError with their file's name") {
+    check_damaged(
+        "materials:\n  copper: {card: ofhc_copper}\npoint:\n  path:\n    stretch:\n"
+        "      F: [[1 + 1e3*t, 2*sin(t), 0], [0, 1, 0], [0, 0, 1]]\n      time: 1 ms\n"
+        "  steps: 500\n  every: 2\n  temperature: 300 K\n  length: 1 mm\n",
+        [](const std::string& file) { krater::read_point(file); });
   }
 }

@@ -123,7 +123,7 @@ TEST_SUITE("unit") {
       CAPTURE(file);
       check_fixed_point(read_scene(file), folder);
       const std::string stem = entry.path().stem().string();
-      if (stem == "two_discs") continue;  // discs have no axis
+      if (stem == "two_discs" || stem == "ccf_two_bars") continue;  // no axis; square bars
       for (Frame frame : all_frames) {
         CAPTURE(std::string{name(frame)});
         const Scene scene = read_scene(file, {"frame=" + std::string{name(frame)}});

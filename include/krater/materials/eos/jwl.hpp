@@ -43,6 +43,10 @@ struct Jwl {
     const double p = fma(start.thermal, initial_energy, start.cold);
     c0 = sqrt(bulk_modulus(rho0, v0, p, initial_energy) * v0);
   }
+  /// At the start, over the cold curve int -p_cold dv: e = e_cold(v) + c_v T (Menikoff, eq. 5).
+  double thermal_energy() const {
+    return initial_energy - (A / R1 * exp(-R1) + B / R2 * exp(-R2)) / rho0;
+  }
   const char* problem() const {
     return c0 > 0.0 ? nullptr : "these constants give no sound speed at rho0";
   }

@@ -41,6 +41,9 @@ struct GasLaw {
     initial_energy = (initial_pressure + gamma * p_inf) / ((gamma - 1.0) * rho0);
     c0 = sqrt(gamma * (initial_pressure + p_inf) / rho0);
   }
+  /// e is all heat, e = c_v T (heating/internal_energy.hpp). A liquid's p_inf is a fit; its T is
+  /// counted from the start.
+  double thermal_energy() const requires(!stiff) { return initial_energy; }
   const char* problem() const {
     if (!(gamma > 1.0)) return "gamma must exceed 1";
     return initial_pressure + p_inf > 0.0 ? nullptr

@@ -39,10 +39,10 @@ struct RateStep {
   MaskOf<Real> snapped;
 };
 
-template <class Real, class Curve>
-KRATER_FORCE_INLINE RateStep<Real> rate_return(const Curve& curve, Real q_trial, Real eps, double G,
-                                               Real phi, const Growth<Real>& growth, Real strain,
-                                               double dt) {
+template <class Real, class Curve, class Modulus>
+KRATER_FORCE_INLINE RateStep<Real> rate_return(const Curve& curve, Real q_trial, Real eps,
+                                               Modulus G, Real phi, const Growth<Real>& growth,
+                                               Real strain, double dt) {
   constexpr int cap = 200;
   constexpr double tolerance = 1e-11, round_off = 1e-15;
   const Real three_G = Real(3.0 * G), per_dt = Real(1.0 / dt);

@@ -66,18 +66,18 @@ KRATER_FORCE_INLINE Mat3<Real> polar_rotation(const Mat3<Real>& A) {
 
 struct TruesdellRate {
   static constexpr bool needs_F = false;
-  template <class Real>
+  template <class Real, class Modulus>
   KRATER_FORCE_INLINE static Sym3<Real> trial(const Sym3<Real>& s, const StepMotion<Real>& m,
-                                              double G) {
+                                              Modulus G) {
     return trial_deviator(s, m.dtL, G);
   }
 };
 
 struct TruesdellProjectedRate {
   static constexpr bool needs_F = false;
-  template <class Real>
+  template <class Real, class Modulus>
   KRATER_FORCE_INLINE static Sym3<Real> trial(const Sym3<Real>& s, const StepMotion<Real>& m,
-                                              double G) {
+                                              Modulus G) {
     const Real per_j = Real(1.0) / (det_minus_one(m.dtL) + 1.0);
     return fma(Real(2.0 * G), dev(m.dE), per_j * (s + dev(push_forward_change(m.dtL, s))));
   }
@@ -85,9 +85,9 @@ struct TruesdellProjectedRate {
 
 struct JaumannRate {
   static constexpr bool needs_F = false;
-  template <class Real>
+  template <class Real, class Modulus>
   KRATER_FORCE_INLINE static Sym3<Real> trial(const Sym3<Real>& s, const StepMotion<Real>& m,
-                                              double G) {
+                                              Modulus G) {
     const Mat3<Real> H = m.dtL * inverse(plus_identity(Real(0.5) * m.dtL));
     const Real x = 0.5 * (H.zy - H.yz), y = 0.5 * (H.xz - H.zx), z = 0.5 * (H.yx - H.xy);
     const Real o = Real(0.0);
@@ -99,9 +99,9 @@ struct JaumannRate {
 
 struct GreenNaghdiRate {
   static constexpr bool needs_F = true;
-  template <class Real>
+  template <class Real, class Modulus>
   KRATER_FORCE_INLINE static Sym3<Real> trial(const Sym3<Real>& s, const StepMotion<Real>& m,
-                                              double G) {
+                                              Modulus G) {
     const Mat3<Real> before = polar_rotation(inverse(plus_identity(m.dtL)) * m.F);
     const Mat3<Real> turn = polar_rotation(m.F) * transpose(before);
     // R + I = R_h (R_h + R_h^T), and the bracket is symmetric and positive below half a turn.
