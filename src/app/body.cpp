@@ -167,12 +167,13 @@ void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& s
   };
   thickness_ = thickness(kToldShare);
   const double thin = thickness(kThinShare);
-  if (thin > scene.grid.cell * (1 + 1e-9)) return;
-  throw InputError(
-      fmt::format("{}: a fifth of this body's mass or more lies where it is {:.3g} cells thick or "
-                  "less, and one "
-                  "cell cannot bend or shear: use grid.cell {:.2g} m or smaller, or a thicker body",
-                  options_->where, thin / scene.grid.cell, thin / 3));
+  if (options_->thin_allowed || thin > scene.grid.cell * (1 + 1e-9)) return;
+  throw InputError(fmt::format(
+      "{}: a fifth of this body's mass or more lies where it is {:.3g} cells thick or less, and "
+      "one "
+      "cell cannot bend or shear: use grid.cell {:.2g} m or smaller, a thicker body, or say "
+      "thin: allowed",
+      options_->where, thin / scene.grid.cell, thin / 3));
 }
 
 void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,

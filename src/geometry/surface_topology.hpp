@@ -27,6 +27,10 @@ std::vector<std::size_t> duplicate_facets(const Triangles& t);
 /// A number for every facet, equal for facets joined by edges.
 std::vector<std::uint32_t> connected_parts(const Triangles& t);
 
+/// Vertices at which several fans of facets meet only there (a pinch) become one for each fan;
+/// facets keep their order, vertices their places.
+void split_pinched_vertices(Triangles& t);
+
 std::vector<HalfEdge> sorted_half_edges(const Triangles& t);
 
 /// visit(first, last): the half-edges of one edge.

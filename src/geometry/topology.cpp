@@ -1,9 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <numeric>
+#include <utility>
 
 #include "surface_topology.hpp"
 
 namespace krater {
+namespace {
+
+/// Disjoint sets, each known by its least member.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : above_(count) {
+    std::iota(above_.begin(), above_.end(), 0U);
+  }
+  std::uint32_t root(std::uint32_t n) {
+    while (above_[n] != n) n = above_[n] = above_[above_[n]];
+    return n;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a), b = root(b);
+    above_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> above_;
+};
+
+}  // namespace
 
 std::vector<HalfEdge> sorted_half_edges(const Triangles& t) {
   std::vector<HalfEdge> list;
@@ -41,20 +64,41 @@ std::vector<std::size_t> duplicate_facets(const Triangles& t) {
 }
 
 std::vector<std::uint32_t> connected_parts(const Triangles& t) {
+  Groups parts(t.facets.size());
+  for_edges(t, [&](const HalfEdge* first, const HalfEdge* last) {
+    for (const HalfEdge* e = first + 1; e < last; ++e) parts.join(first->facet, e->facet);
+  });
   std::vector<std::uint32_t> part(t.facets.size());
-  std::iota(part.begin(), part.end(), 0U);
-  const auto root = [&part](std::uint32_t n) {
-    while (part[n] != n) n = part[n] = part[part[n]];
-    return n;
+  for (std::uint32_t n = 0; n < part.size(); ++n) part[n] = parts.root(n);
+  return part;
+}
+
+void split_pinched_vertices(Triangles& t) {
+  const auto corner = [&t](std::uint32_t facet, std::uint32_t vertex) {
+    const auto& f = t.facets[facet];
+    return 3 * facet + (f[0] == vertex ? 0U : (f[1] == vertex ? 1U : 2U));
   };
+  Groups fans(3 * t.facets.size());
   for_edges(t, [&](const HalfEdge* first, const HalfEdge* last) {
     for (const HalfEdge* e = first + 1; e < last; ++e) {
-      const std::uint32_t a = root(first->facet), b = root(e->facet);
-      part[std::max(a, b)] = std::min(a, b);
+      for (const std::uint32_t v : {e->low, e->high}) {
+        fans.join(corner(first->facet, v), corner(e->facet, v));
+      }
     }
   });
-  for (std::uint32_t n = 0; n < part.size(); ++n) part[n] = root(n);
-  return part;
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> number(3 * t.facets.size(), none);
+  Triangles out;
+  for (std::uint32_t n = 0; n < number.size(); ++n) {
+    const std::uint32_t root = fans.root(n), vertex = t.facets[n / 3][n % 3];
+    if (number[root] == none) {
+      number[root] = static_cast<std::uint32_t>(out.vertices.size());
+      out.vertices.push_back(t.vertices[vertex]);
+    }
+    if (n % 3 == 0) out.facets.emplace_back();
+    out.facets.back()[n % 3] = number[root];
+  }
+  t = std::move(out);
 }
 
 }  // namespace krater

@@ -136,6 +136,8 @@ Node read_body(const Node& node, Reading& reading) {
   } else {
     block.record("velocity", vector_node(reading.scene.frame, Triple{}));
   }
+  body.thin_allowed =
+      block.choice<bool>("thin", {{"refused", false}, {"allowed", true}}, body.thin_allowed);
   block.record("points", read_points(block.find("points"), block, body.points, reading));
   if (const Node* losers = block.find("wins_over")) block.record("wins_over", *losers);
   Node resolved = block.finish();

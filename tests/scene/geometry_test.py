@@ -144,6 +144,8 @@ def bodies():
     refused("outside", ["bodies.part", "outside"], "{move: {by: [1, 0, 0], shape: " + box + "}}")
     refused("thin", ["bodies.part", "0.5 cells thick", "grid.cell"],
             "{box: {min: [-20 mm, -20 mm, 0], max: [20 mm, 20 mm, 1 mm]}}")
+    expect("thin_allowed", "{box: {min: [-20 mm, -20 mm, 0], max: [20 mm, 20 mm, 1 mm]}}", 1.6e-6,
+           extra="    thin: allowed\n")
     refused("thin_tube", ["cells thick"], "{tube: {inner_radius: 19 mm, outer_radius: 20 mm, height: 30 mm}}")
     refused("polygon", [r"shape\.revolution", "corner 1.*corner 3|cross"],
             "{revolution: {polygon: [[0, 0], [10 mm, 10 mm], [10 mm, 0], [0, 10 mm]]}}")

@@ -76,6 +76,7 @@ struct BodyOptions {
   int material = -1;                   ///< index in Scene::materials
   std::shared_ptr<const Solid> solid;  ///< without what other bodies win of it
   std::vector<int> wins_over;          ///< bodies that give way where they overlap this one
+  bool thin_allowed = false;           ///< may be one cell thick or less
   PointOptions points;
   std::shared_ptr<const FieldFunction> velocity;  ///< initial velocity; null: at rest
 };

@@ -207,6 +207,16 @@ TEST_SUITE("unit") {
     pierced.vertices[7] = {-0.5, -0.5, 0.4};  // pulled through the opposite sides
     CHECK(says(examine_surface(pierced), "pairs of facets that cross"));
 
+    // Two boxes that share one corner bound a volume; crossings elsewhere are still seen.
+    Triangles pinch = sound;
+    append(pinch, box_surface({{1, 1, 1}, {2, 2, 2}}));
+    weld(pinch, 0);
+    CHECK(pinch.vertices.size() == 15);
+    CHECK(examine_surface(pinch).text(1, "m") == "");
+    CHECK(make_surface_solid(pinch)->moments()->volume == doctest::Approx(2));
+    append(pinch, box_surface({{1.9, 1.2, 1.3}, {3, 1.8, 1.7}}));
+    CHECK(examine_surface(pinch).any());
+
     Triangles crowded = sound;
     crowded.vertices.push_back({2, 2, 2});
     crowded.facets.push_back({0, 1, 8});
