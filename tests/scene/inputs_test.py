@@ -9,6 +9,7 @@ SCENES = {
     "bar_pulled_apart": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "1 mm"},
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
+    "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "taylor_copper": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "two_discs": {"frames": ("plane_strain",), "end": "0.1", "coarse": None},

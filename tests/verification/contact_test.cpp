@@ -258,10 +258,11 @@ TEST_SUITE("verification") {
 
   TEST_CASE("three thin plates in the cells of one: no penetration, momentum exact") {
     const double h = 0.02;
-    Run run = start_text(strip(50, material(kSteel) + material(kAluminium),
-                               slab("left", kSteel, -1.6 * h, -0.5 * h, 30) +
-                                   slab("middle", kAluminium, -0.3 * h, 0.3 * h, 0) +
-                                   slab("right", kSteel, 0.5 * h, 1.7 * h, -20)));
+    Run run =
+        start_text(strip(50, material(kSteel) + material(kAluminium),
+                         slab("left", kSteel, -1.6 * h, -0.5 * h, 30) +
+                             slab("middle", kAluminium, -0.3 * h, 0.3 * h, 0) +
+                             "    thin: allowed\n" + slab("right", kSteel, 0.5 * h, 1.7 * h, -20)));
     const Totals start = run.sim->totals();
     double scale = 0;
     for (int b = 0; b < 3; ++b) scale += std::abs(run.sim->totals(b).momentum[1]);
