@@ -305,12 +305,13 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("oblique plates a thousandth of a cell apart slide past each other") {
-    // The joint's normal errs by 1 to 2 % on lattices at 20 degrees to it, so the plates part at that
-    // share of the sliding speed until the gap is seen; along the joint nothing may happen.
+    // The joint's normal errs by 1 to 2 % on lattices at 20 degrees to it, so the plates part at
+    // that share of the sliding speed until the gap is seen; along the joint nothing may happen.
     for (const std::string normal : {"volume_gradient", "logistic_regression"}) {
       const std::string box = "{rotate: {axis: y, angle: 20 degree, shape: {box: {min: [-0.03, ";
       Run run = start_text(
-          "frame: plane_strain\ngrid: {cell: 0.001, box: {min: [-0.06, -0.06], max: [0.06, 0.06]}}\n"
+          "frame: plane_strain\ngrid: {cell: 0.001, box: {min: [-0.06, -0.06], max: [0.06, "
+          "0.06]}}\n"
           "time: {end: 1e-5}\nmaterials:\n" +
           material(kSteel) + "bodies:\n  lower: {material: steel, shape: " + box +
           "-0.008], max: [0.03, -5e-7]}}}}}\n  upper: {material: steel, shape: " + box +
