@@ -17,7 +17,7 @@ namespace {
 // the unevenness of the lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kValley = 0.03;
 constexpr double kSteeper = 10;
-constexpr int kHalo = 2, kSweeps = 3, kMostPairs = 8;
+constexpr int kHalo = 2, kSweeps = 3, kMostPairs = 64;
 constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
