@@ -17,9 +17,8 @@ struct WantedScalar {
 
 bool carried(const Body& body, const std::string& field) {
   const std::vector<Column>& columns = body.layout().columns();
-  return std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
-    return c.components == 1 && field == c.field->name;
-  });
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const Column& c) { return c.components == 1 && field == c.field->name; });
 }
 
 int slot_of(const Body& body, const std::string& field) {
@@ -117,8 +116,7 @@ std::vector<double> fragment_numbers(const Simulation& sim, int body) {
   }
   std::vector<double> out;
   for (const auto& [patch, i] : sim.points_by_id(body))
-    out.push_back(
-        pieces.of[first[static_cast<std::size_t>(patch)] + static_cast<std::size_t>(i)]);
+    out.push_back(pieces.of[first[static_cast<std::size_t>(patch)] + static_cast<std::size_t>(i)]);
   return out;
 }
 

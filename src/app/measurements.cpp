@@ -185,8 +185,8 @@ std::vector<double> Measurements::values(const Simulation& sim, bool all) {
     const MeasureOptions& m = sim.scene().measures[i];
     if (!all && !in_row(m)) continue;
     const BodyPoints& points = selections.points(m.selection);
-    out[i] = follow(m, series_[i], sim.time(),
-                    evaluate(m, points, selections.context(), start_[i]));
+    out[i] =
+        follow(m, series_[i], sim.time(), evaluate(m, points, selections.context(), start_[i]));
   }
   return out;
 }

@@ -166,10 +166,13 @@ void read_region(Block& parent, MeasureSelection& selection, Reading& reading) {
       if (std::isfinite(mine)) block.fail("r and x are the same axis in this frame; give one");
       mine = *value;
       block.record(side_name(frame, axis, side), number_node(*value));
-      if (!(bounds[0] < bounds[1])) block.fail("the region is empty: _max must lie beyond _min");
+      if (!(bounds[0] < bounds[1]))
+        block.fail("the region is empty: " + side_name(frame, axis, 1) + " must lie beyond " +
+                   side_name(frame, axis, 0));
     }
   }
-  if (selection.region == MeasureSelection{}.region) block.fail("give at least one bound, z_min, ...");
+  if (selection.region == MeasureSelection{}.region)
+    block.fail("give at least one bound, z_min, ...");
   parent.record("region", block.finish());
 }
 
@@ -216,8 +219,8 @@ void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
   if (takes(kind, "face")) read_face(block, measure, false, reading);
   if (takes(kind, "z_face")) read_face(block, measure, true, reading);
   if (takes(kind, "level"))
-    measure.level = block.number({"level", "m", Range::positive, 0.5 * reading.scene.grid.cell,
-                                  "depth below the original face"});
+    measure.level = block.number(
+        {"level", "m", Range::positive, reading.scene.grid.cell, "depth below the original face"});
   if (takes(kind, "mass_share")) {
     measure.mass_share = block.number(
         {"mass_share", "1", Range::fraction, 1.0, "share of the mass that the extent holds"});
@@ -246,7 +249,8 @@ Node read_measure(const Node& node, Reading& reading) {
   for (const MeasureKindInfo& known : measure_kinds())
     if (kind == known.name) measure.kind = known.kind;
   if (info(measure.kind).round && reading.scene.frame == Frame::plane_strain)
-    block.fail(kind + " is not defined in plane_strain, where a hole is a slot; use axisymmetric or 3d");
+    block.fail(kind +
+               " is not defined in plane_strain, where a hole is a slot; use axisymmetric or 3d");
   measure.selection.bodies = read_bodies(block, reading);
   read_keys(block, measure, reading);
   read_selection(block, measure, reading);
