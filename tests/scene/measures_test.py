@@ -112,7 +112,7 @@ def impact():
 def refused():
     for text, part in (("kind: internal_energy, body: [ball, nobody]", "unknown body 'nobody'"),
                        ("kind: mean, body: [ball, plate], field: damage", "no field 'damage'"),
-                       ("kind: hole_dia, body: plate", "did you mean hole_diameter")):
+                       ("kind: hole_diametre, body: plate", "did you mean hole_diameter")):
         done = krater("run", "ball.yaml", "-o", "no", "--set", f"measures.bad={{{text}}}")
         check(done.returncode == 2 and part in done.stderr and "measures.bad" in done.stderr, f"refused: {text}",
               done.stderr.strip()[-200:])
