@@ -38,12 +38,14 @@ std::vector<std::string> fields_of(const MeasureOptions& measure) {
 /// Selected points, gathered once for all measures of one selection.
 class Selections {
  public:
-  explicit Selections(const Simulation& sim) : sim_{sim}, context_{measure_context(sim)} {
+  explicit Selections(const Simulation& sim) : sim_{sim} {
     for (const MeasureOptions& m : sim.scene().measures)
       for (const std::string& field : fields_of(m)) fields_[m.selection.bodies].push_back(field);
   }
 
-  const MeasureContext& context() const { return context_; }
+  MeasureContext context(const MeasureSelection& selection) const {
+    return measure_context(sim_, selection.bodies);
+  }
 
   const BodyPoints& points(const MeasureSelection& selection) {
     for (const auto& [known, points] : selected_)
@@ -54,7 +56,7 @@ class Selections {
     MeasureSelection whole;
     whole.bodies = selection.bodies;
     if (selection == whole) return keep(selection, of_bodies(selection.bodies));
-    return keep(selection, select(selection, points(whole), context_));
+    return keep(selection, select(selection, points(whole), context(selection)));
   }
 
  private:
@@ -64,7 +66,6 @@ class Selections {
   }
 
   const Simulation& sim_;
-  MeasureContext context_;
   std::map<std::vector<int>, std::vector<std::string>> fields_;
   std::deque<std::pair<MeasureSelection, BodyPoints>> selected_;  // references stay valid
 };
@@ -83,9 +84,10 @@ Json vector_json(Frame frame, const Triple& v) {
 }
 
 Json piece_json(const Piece& piece, const Scene& scene) {
-  const double spacing = scene.grid.cell / scene.method.points_per_direction;
+  const auto& per = scene.bodies[static_cast<std::size_t>(piece.body)].points.per_direction;
   Triple size{};
-  for (std::size_t a = 0; a < 3; ++a) size[a] = piece.high[a] - piece.low[a] + spacing;
+  for (std::size_t a = 0; a < 3; ++a)
+    size[a] = piece.high[a] - piece.low[a] + scene.grid.cell / per[a];
   Json j;
   j["body"] = Json::of(scene.bodies[static_cast<std::size_t>(piece.body)].name);
   j["number"] = Json::of(piece.number);
@@ -161,7 +163,7 @@ Measurements::Measurements(const Simulation& sim) {
     if (needs_face(m)) {
       MeasureSelection owner = m.selection;
       if (m.target >= 0) owner = {}, owner.bodies = {m.target};
-      start.face = face_position(m, selections.points(owner), selections.context());
+      start.face = face_position(m, selections.points(owner), selections.context(owner));
     }
     start_.push_back(start);
   }
@@ -172,7 +174,7 @@ void Measurements::check(const Simulation& sim) const {
   Selections selections{sim};
   for (std::size_t i = 0; i < start_.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
-    evaluate(m, selections.points(m.selection), selections.context(), start_[i]);
+    evaluate(m, selections.points(m.selection), selections.context(m.selection), start_[i]);
   }
 }
 
@@ -185,8 +187,8 @@ std::vector<double> Measurements::values(const Simulation& sim, bool all) {
     const MeasureOptions& m = sim.scene().measures[i];
     if (!all && !in_row(m)) continue;
     const BodyPoints& points = selections.points(m.selection);
-    out[i] =
-        follow(m, series_[i], sim.time(), evaluate(m, points, selections.context(), start_[i]));
+    out[i] = follow(m, series_[i], sim.time(),
+                    evaluate(m, points, selections.context(m.selection), start_[i]));
   }
   return out;
 }
@@ -213,7 +215,7 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
     MeasureSelection with_dust = m.selection;
     with_dust.least_points = 0;
     fragments[m.name] =
-        fragments_json(m, selections.points(with_dust), selections.context(), scene);
+        fragments_json(m, selections.points(with_dust), selections.context(m.selection), scene);
   }
   summary["measures"] = std::move(measures);
   if (!fragments.items.empty()) summary["fragments"] = std::move(fragments);

@@ -176,18 +176,26 @@ void read_region(Block& parent, MeasureSelection& selection, Reading& reading) {
   parent.record("region", block.finish());
 }
 
+/// Points of a piece two cells across, of the bodies the coarsest: less is not resolved.
+int points_of_two_cells(const MeasureSelection& selection, const Scene& scene) {
+  int least = 0;
+  for (const int b : selection.bodies) {
+    int points = 1;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension(scene.frame)); ++d)
+      points *= 2 * scene.bodies[static_cast<std::size_t>(b)].points.per_direction[d];
+    least = least == 0 ? points : std::min(least, points);
+  }
+  return least;
+}
+
 void read_selection(Block& block, MeasureOptions& measure, Reading& reading) {
   const MeasureKindInfo& kind = info(measure.kind);
   MeasureSelection& selection = measure.selection;
   if (!kind.selects) return;
   selection.largest_piece =
       block.choice<bool>("piece", {{"all", false}, {"largest", true}}, kind.whole);
-  int fallback = 0;
-  if (measure.kind == MeasureKind::fragments) {  // two cells across: less is not resolved
-    fallback = 1;
-    for (int d = 0; d < dimension(reading.scene.frame); ++d)
-      fallback *= 2 * reading.scene.method.points_per_direction;
-  }
+  const bool counts = measure.kind == MeasureKind::fragments;
+  const int fallback = counts ? points_of_two_cells(selection, reading.scene) : 0;
   selection.least_points = block.integer("least_points", 0, 1'000'000'000, fallback);
   read_region(block, selection, reading);
 }
