@@ -26,7 +26,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> overrides;
   int steps = 40, warm = 10, threads = 1;
-  bool flow = true;  ///< take one more step, untimed, to see how many points change cell and block
+  bool flow = true;  ///< take more steps, untimed, to see how many points change cell and block
 };
 
 [[noreturn]] void usage() {
@@ -93,18 +93,26 @@ struct Flow {
   double cells = 0, blocks = 0;  ///< shares of the points that changed theirs in one step
 };
 
+/// Mean over some steps: the points lie on a lattice, whose layers cross together.
 Flow watch_flow(Simulation& sim, double until) {
-  const auto before = places(sim);
-  sim.step(until);
+  constexpr int steps = 8;
   Flow flow;
-  for (const auto& [id, now] : places(sim)) {
-    const auto was = before.find(id);
-    if (was == before.end()) continue;
-    flow.cells += was->second.cell != now.cell;
-    flow.blocks += was->second.block != now.block;
+  auto before = places(sim);
+  for (int n = 0; n < steps && !sim.done(); ++n) {
+    sim.step(until);
+    auto after = places(sim);
+    double cells = 0, blocks = 0;
+    for (const auto& [id, now] : after) {
+      const auto was = before.find(id);
+      if (was == before.end()) continue;
+      cells += was->second.cell != now.cell;
+      blocks += was->second.block != now.block;
+    }
+    flow.cells += cells / static_cast<double>(before.size()) / steps;
+    flow.blocks += blocks / static_cast<double>(before.size()) / steps;
+    before = std::move(after);
   }
-  const auto count = static_cast<double>(before.size());
-  return {flow.cells / count, flow.blocks / count};
+  return flow;
 }
 
 /// Over all bits of all points, in the order of their ids.
@@ -163,6 +171,10 @@ Samples time_steps(Simulation& sim, int steps, double until) {
 void print_state(const Simulation& sim) {
   std::size_t asleep = 0;
   for (const Patch& p : sim.grid().patches) asleep += p.tile_current ? 1 : 0;
+  double record = 0;
+  for (const Patch& p : sim.grid().patches)
+    record += 8.0 * p.count * sim.bodies()[static_cast<std::size_t>(p.body)]->layout().stride() /
+              kLanes / static_cast<double>(sim.point_count());
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf("{\"points\": %zu, \"steps\": %lld, \"threads\": %d, \"instruction_set\": \"%s\",\n",
@@ -173,9 +185,9 @@ void print_state(const Simulation& sim) {
       "\"node_blocks\": %zu,\n",
       sim.dt(), sim.time(), sim.grid().patches.size(), asleep, sim.grid().node_blocks.size());
   std::printf(
-      " \"bytes_per_point\": %.2f, \"resident_bytes_per_point\": %.2f, "
+      " \"record_bytes\": %.2f, \"bytes_per_point\": %.2f, \"resident_bytes_per_point\": %.2f, "
       "\"hash\": \"%016llx\",\n",
-      sim.bytes_per_point(),
+      record, sim.bytes_per_point(),
       1024.0 * static_cast<double>(usage.ru_maxrss) / static_cast<double>(sim.point_count()),
       static_cast<unsigned long long>(state_hash(sim)));
 }
