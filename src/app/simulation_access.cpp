@@ -68,6 +68,7 @@ void Simulation::set_value(int patch, int point, int slot, double x) {
   const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
   p.records.data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
                    static_cast<std::size_t>(kLanes * slot + point % kLanes)] = x;
+  p.settled = p.tile_current = p.tile_ahead = false;
 }
 
 std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {

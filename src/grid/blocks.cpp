@@ -6,11 +6,28 @@
 
 namespace krater {
 
+namespace {
+
+using Offset = std::array<std::int32_t, 3>;
+
+/// Offsets of all neighbours: a change of the topology asks for 27 of them per patch.
+constexpr std::array<Offset, 27> neighbour_offsets(int dimension) {
+  std::array<Offset, 27> out{};
+  for (int slot = 0; slot < neighbour_count(dimension); ++slot)
+    for (int a = 0; a < dimension; ++a)
+      out[static_cast<std::size_t>(slot)][static_cast<std::size_t>(a)] =
+          slot_offset(slot, a, dimension);
+  return out;
+}
+constexpr std::array<Offset, 27> plane_offsets = neighbour_offsets(2),
+                                 space_offsets = neighbour_offsets(3);
+
+}  // namespace
+
 BlockKey shifted(const BlockKey& key, int slot, int dimension) {
-  BlockKey k = key;
-  for (int a = 0; a < dimension; ++a)
-    k.i[static_cast<std::size_t>(a)] += slot_offset(slot, a, dimension);
-  return k;
+  const Offset& offset =
+      (dimension == 3 ? space_offsets : plane_offsets)[static_cast<std::size_t>(slot)];
+  return {{key.i[0] + offset[0], key.i[1] + offset[1], key.i[2] + offset[2]}};
 }
 
 namespace {

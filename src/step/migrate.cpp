@@ -163,7 +163,7 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
 
 void append(Patch& patch, const double* point, int stride) {
   const int i = patch.count++;
-  patch.settled = patch.tile_current = false;
+  patch.settled = patch.tile_current = patch.tile_ahead = patch.steady = false;
   patch.records.reserve(static_cast<std::size_t>(patch.groups()) *
                         static_cast<std::size_t>(stride));
   for (int k = 0; k < stride; k += kLanes) component(patch, stride, k, i) = point[k / kLanes];

@@ -17,4 +17,11 @@ double fma_rate_isa_portable();
 double fma_rate_isa_v3();
 double fma_rate_isa_v4();
 
+/// FMA rate of a level by its name, "portable", "v3" or "v4" [flop/s].
+double fma_rate_of(const char* level);
+
+/// STREAM triad a = b + s c over arrays far larger than the caches, 24 bytes counted per element
+/// (McCalpin 1995), by `threads` threads [byte/s].
+double triad_rate(int threads);
+
 }  // namespace krater::bench

@@ -14,7 +14,7 @@ constexpr int kChains = 10;
 constexpr int kChains = 5;
 #endif
 
-double fma_rate() {
+double measured_rate() {
   double best = 0;
   for (int repeat = 0; repeat < 20; ++repeat) {
     constexpr int rounds = 20000;
@@ -41,6 +41,6 @@ double fma_rate() {
 
 namespace krater::bench {
 
-double KRATER_CONCAT(fma_rate_, KRATER_ISA)() { return fma_rate(); }
+double KRATER_CONCAT(fma_rate_, KRATER_ISA)() { return measured_rate(); }
 
 }  // namespace krater::bench

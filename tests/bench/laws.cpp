@@ -136,16 +136,6 @@ Timing measure(const StageFactory& factory, const Recipe& recipe, bool plastic, 
   return result;
 }
 
-double fma_rate(const std::string& level) {
-#if defined(KRATER_HAVE_V3)
-  if (level == "v3") return bench::fma_rate_isa_v3();
-#endif
-#if defined(KRATER_HAVE_V4)
-  if (level == "v4") return bench::fma_rate_isa_v4();
-#endif
-  return bench::fma_rate_isa_portable();
-}
-
 void print_timing(const Case& c, const Level& level, bool plastic, const Timing& t, bool first) {
   const Body names{*level.factory, c.recipe, 1, 1};
   std::printf(
@@ -173,7 +163,7 @@ int main(int argc, char** argv) {
   std::printf("\"clock_hz\": %.4g, \"fma_flops\": {", bench::clock_rate());
   const std::vector<Level> all = levels();
   for (std::size_t i = 0; i < all.size(); ++i)
-    std::printf("%s\"%s\": %.4g", i == 0 ? "" : ", ", all[i].name, fma_rate(all[i].name));
+    std::printf("%s\"%s\": %.4g", i == 0 ? "" : ", ", all[i].name, bench::fma_rate_of(all[i].name));
   std::printf("}},\n  \"rows\": [");
   bool first = true;
   for (const Case& c : cases()) {

@@ -19,6 +19,11 @@ class Stopwatch {
     last_ = now;
   }
   void start() { last_ = Clock::now(); }
+  /// Book `seconds` of phase `from` as phase `to`: work done in the sweep of another.
+  void move(std::size_t from, std::size_t to, double seconds) {
+    seconds_[from] -= seconds;
+    seconds_[to] += seconds;
+  }
   double seconds(std::size_t phase) const { return seconds_[phase]; }
 
  private:

@@ -80,7 +80,9 @@ struct Patch {
   std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim, filled by rebuild
   std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
   bool settled = false;       ///< the last gather found everything at rest and changed nothing
-  bool tile_current = false;  ///< the tile is that of the present state
+  bool tile_current = false;  ///< asleep: the tile is that of the present state
+  bool tile_ahead = false;    ///< so it is awake: scattered in the same sweep as the gather
+  bool steady = false;        ///< no point came or left in the last step
   Outbox outbox;
   PatchResult result;
   int groups() const { return (count + 7) / 8; }

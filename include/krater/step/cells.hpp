@@ -46,22 +46,22 @@ KRATER_FORCE_INLINE Pack look_up(const double* table, const double* cells) {
   return load(out);
 }
 
-/// beta per cell from the shock indicators of its points.
-template <int Dim>
-KRATER_FORCE_INLINE void shock_switch(const Patch& patch, const GridGeometry& grid, ReadView x,
-                                      ReadView indicator, double* cells, double* beta) {
-  const PatchOrigin origin = origin_of<Dim>(patch);
-  for (int c = 0; c < kBlockNodes; c += kLanes) store(beta + c, Pack(0.0));
-  for (int g = 0; g < patch.groups(); ++g) {
-    double* here = cells + kLanes * g;
-    store(here, cell_index<Dim>(grid, origin, x, g));
-    alignas(64) double shock[8];
-    store(shock, indicator(g));
-    for (int l = 0; l < kLanes; ++l) {
-      double& b = beta[static_cast<int>(here[l])];
-      b = shock[l] > b ? shock[l] : b;
-    }
+/// Zero the table of a block's cells.
+KRATER_FORCE_INLINE void clear_cells(double* table) {
+  for (int c = 0; c < kBlockNodes; c += kLanes) store(table + c, Pack(0.0));
+}
+
+/// Largest shock indicator of the points of each cell ...
+KRATER_FORCE_INLINE void note_shock(const double* cells, Pack indicator, double* largest) {
+  alignas(64) double shock[8];
+  store(shock, indicator);
+  for (int l = 0; l < kLanes; ++l) {
+    double& b = largest[static_cast<int>(cells[l])];
+    b = shock[l] > b ? shock[l] : b;
   }
+}
+/// ... and beta from it, in place.
+KRATER_FORCE_INLINE void shock_switch(double* beta) {
   for (int c = 0; c < kBlockNodes; c += kLanes)
     store(beta + c,
           clamp((kShockOn - load(beta + c)) * (1 / (kShockOn - kShockOff)), Pack(0.0), Pack(1.0)));

@@ -10,17 +10,29 @@ namespace krater::inline KRATER_ISA {
 
 inline constexpr int kStageGroups = 8;  ///< lane groups a stage works on at once
 
+/// Ask for the whole record of a lane group: here the points come from memory, and the stages will
+/// want what this pass does not. The processor itself looks ahead only within a page.
+KRATER_FORCE_INLINE void fetch_record(const Patch& patch, int stride, int g) {
+  if (g >= patch.groups()) return;
+  const double* record = patch.records.data() + g * stride;
+  for (int k = 0; k < stride; k += kLanes) __builtin_prefetch(record + k, 1);
+}
+inline constexpr int kFetchAhead = 3;  ///< lane groups
+
 /// First pass: nodes -> points.
 template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
 void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
                   const GatherViews& view, const CellSums& cells, GatherSums& sums) {
   constexpr int D = Frame::dim;
+  const int stride = view.mass.stride;
   using T = PartTraits<Part>;
   const PatchOrigin origin = origin_of<D>(patch);
   const GridGeometry& grid = *s.geometry;
   LaneWeights<D> lw;
   PointSums<D> n;
+  for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
   for (int g = 0; g < patch.groups(); ++g) {
+    fetch_record(patch, stride, g + kFetchAhead);
     compute_weights<D, Shape, false>(grid, origin, view.grid_position, view.half_width, g, lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;

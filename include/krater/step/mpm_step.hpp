@@ -75,6 +75,8 @@ class MpmStep {
   void halve_until_safe(double& dt, double max_change);
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
+  bool may_scatter_ahead(GatherPart part) const;
+  void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
   std::array<double, 3> filter_velocity();
   void grid_to_particles(GatherPart part, double dt);
@@ -113,6 +115,7 @@ class MpmStep {
   struct ThreadMemory {
     AlignedBuffer halo, local, cells, pressures;
     std::vector<unsigned char> leavers;
+    double scatter_seconds = 0;  ///< of the scatters ahead in one sweep
   };
   std::vector<ThreadMemory> memory_;
 };

@@ -17,31 +17,47 @@ KRATER_FORCE_INLINE ReadView state_view(const Patch& patch, int offset, int stri
   return offset < 0 ? ReadView{zeros, 0} : ReadView{patch.records.data() + offset, stride};
 }
 
-/// Pressure that enters the force, 8 per group into w.pressures: p + q, cell-averaged where the
-/// flow is smooth.
+/// What the first pass over a patch leaves for the second, in SweepScratch::cells and ::pressures.
+struct ForceAverages {
+  const double* beta;   ///< per cell
+  const double* mean;   ///< per cell: sum V (p + q) / sum V
+  const double* cells;  ///< 8 per group: cell of each point
+};
+
+/// First pass: every point of the patch, padding included, lies in its block (what follows indexes
+/// memory with positions), and the cell averages of the pressure p + q that enters the force. One
+/// pass, because its cost is the way of the columns from memory.
 template <int Dim>
-void force_pressures(Patch& patch, const PointColumns& c, const SweepSettings& s,
-                     const SweepScratch& w) {
+bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
+                const SweepScratch& w) {
   const auto column = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
-  const ReadView p = column(c.pressure), q = column(c.viscous), m = column(c.mass),
-                 rho = column(c.density);
-  double* out = w.pressures;
-  if (!s.average_cells) {
-    for (int g = 0; g < patch.groups(); ++g) store(out + kLanes * g, p(g) + q(g));
-    return;
-  }
-  shock_switch<Dim>(patch, *s.geometry, column(c.grid_position), column(c.indicator), out,
-                    patch.beta.data());
+  const ReadView x = column(c.grid_position), p = column(c.pressure), q = column(c.viscous),
+                 m = column(c.mass), rho = column(c.density), indicator = column(c.indicator);
+  const PatchOrigin origin = origin_of<Dim>(patch);
   const CellSums sums{w.cells, w.cells + kBlockNodes};
-  sums.clear();
-  for (int g = 0; g < patch.groups(); ++g) sums.add(out + kLanes * g, m(g) / rho(g), p(g) + q(g));
-  sums.divide();
+  double* beta = patch.beta.data();
+  if (s.average_cells) sums.clear(), clear_cells(beta);
   for (int g = 0; g < patch.groups(); ++g) {
-    const double* cells = out + kLanes * g;
-    const Pack beta = look_up(patch.beta.data(), cells), mean = look_up(sums.value, cells),
-               own = p(g) + q(g);
-    store(out + kLanes * g, fma(beta, mean - own, own));
+    const LocalCell cell = local_cell<Dim>(*s.geometry, origin, x, g);
+    if (!all(cell.inside)) {
+      patch.result.fault = {FaultKind::not_finite_input, g, bits(!cell.inside)};
+      return false;
+    }
+    if (!s.average_cells) continue;
+    double* cells = w.pressures + kLanes * g;
+    store(cells, cell.index);
+    sums.add(cells, m(g) / rho(g), p(g) + q(g));
+    note_shock(cells, indicator(g), beta);
   }
+  if (s.average_cells) sums.divide(), shock_switch(beta);
+  return true;
+}
+
+/// Pressure that enters the force: p + q, cell-averaged where the flow is smooth.
+KRATER_FORCE_INLINE Pack force_pressure(const ForceAverages* averages, Pack own, int g) {
+  if (averages == nullptr) return own;
+  const double* cells = averages->cells + kLanes * g;
+  return fma(look_up(averages->beta, cells), look_up(averages->mean, cells) - own, own);
 }
 
 /// Channel vectors of 8 points, lane by lane after transposition: value part A, slope parts B_a.
@@ -53,13 +69,14 @@ struct Channels {
 
 template <class Frame, bool Affine, class Configuration>
 KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c,
-                                       const SweepScratch& w, int g, Channels<Frame::dim>& out) {
+                                       const SweepScratch& w, const ForceAverages* averages, int g,
+                                       Channels<Frame::dim>& out) {
   constexpr int D = Frame::dim;
   const auto column = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
   const ReadView x = column(c.position), v = column(c.velocity), b = column(c.body_acceleration);
   const ReadView stress = column(c.stress), L = column(c.affine);
   const Pack m = column(c.mass)(g), V = m / column(c.density)(g),
-             P = load(w.pressures + kLanes * g);
+             P = force_pressure(averages, column(c.pressure)(g) + column(c.viscous)(g), g);
   const auto sigma = [&](int i, int j) {
     return i == j ? stress(g, voigt(i, j)) - P : stress(g, voigt(i, j));
   };
@@ -92,32 +109,14 @@ KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c
   return check;
 }
 
-/// Every point of the patch, padding included, lies in its block: what follows indexes memory with
-/// positions.
-template <int Dim>
-bool positions_valid(Patch& patch, const GridGeometry& grid, ReadView x) {
-  const PatchOrigin origin = origin_of<Dim>(patch);
-  for (int g = 0; g < patch.groups(); ++g) {
-    Mask inside = first_lanes(kLanes);
-    for (int a = 0; a < Dim; ++a) {
-      const Pack cell = base_node(storage(grid, x(g, a), a)) - origin.first[a];
-      inside = inside & (cell >= Pack(0.0)) & (cell < Pack(static_cast<double>(block_edge(Dim))));
-    }
-    if (all(inside)) continue;
-    patch.result.fault = {FaultKind::not_finite_input, g, bits(!inside)};
-    return false;
-  }
-  return true;
-}
-
 template <class Frame, class Shape, bool Affine, class Configuration>
 void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
                    const SweepScratch& w) {
   constexpr int D = Frame::dim;
   const PointColumns& c = body.columns;
   const ReadView x = state_view(patch, c.grid_position, c.stride, w.zeros);
-  if (!positions_valid<D>(patch, *s.geometry, x)) return;
-  force_pressures<D>(patch, c, s, w);
+  if (!first_pass<D>(patch, c, s, w)) return;
+  const ForceAverages averages{patch.beta.data(), w.cells + kBlockNodes, w.pressures};
   double* tile = patch.tile.data();
   for (int i = 0; i < tile_nodes(D) * kNodeDoubles; i += 8) store(tile + i, Pack(0.0));
   const PatchOrigin origin = origin_of<D>(patch);
@@ -126,7 +125,8 @@ void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings
   Channels<D> channels;
   for (int g = 0; g < patch.groups(); ++g) {
     compute_weights<D, Shape, Affine>(*s.geometry, origin, x, half_width, g, lw);
-    const Pack check = load_channels<Frame, Affine, Configuration>(patch, c, w, g, channels);
+    const Pack check = load_channels<Frame, Affine, Configuration>(
+        patch, c, w, s.average_cells ? &averages : nullptr, g, channels);
     const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
     if (bad != 0 && patch.result.fault.kind == FaultKind::none)
       patch.result.fault = {FaultKind::not_finite_input, g, bad};

@@ -50,6 +50,24 @@ KRATER_FORCE_INLINE Pack cell_index(const GridGeometry& grid, const PatchOrigin&
   return local;
 }
 
+/// The same, and which lanes lie in the block at all.
+struct LocalCell {
+  Pack index;
+  Mask inside;
+};
+template <int Dim>
+KRATER_FORCE_INLINE LocalCell local_cell(const GridGeometry& grid, const PatchOrigin& origin,
+                                         ReadView x, int g) {
+  LocalCell out{0.0, first_lanes(kLanes)};
+  for (int a = 0; a < Dim; ++a) {
+    const Pack cell = base_node(storage(grid, x(g, a), a)) - origin.first[a];
+    const auto edge = static_cast<double>(block_edge(Dim));
+    out.inside = out.inside & (cell >= Pack(0.0)) & (cell < Pack(edge));
+    out.index = out.index * edge + cell;
+  }
+  return out;
+}
+
 template <int Dim, class Shape, bool Lever>
 KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOrigin& origin,
                                          ReadView x, ReadView half_width, int g,
