@@ -4,8 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "krater/app/material_plan.hpp"
 #include "krater/core/errors.hpp"
+#include "krater/geometry/thickness.hpp"
 #include "krater/materials/catalogue.hpp"
 
 namespace krater {
@@ -129,14 +132,16 @@ int Body::slot(const FieldInfo& field, int component) const {
 std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   LatticeOptions lattice;
   lattice.cell = scene.grid.cell;
-  lattice.points_per_direction = scene.method.points_per_direction;
+  lattice.points_per_direction = options_->points.per_direction;
+  lattice.fit_to_body = options_->points.fit_to_body;
   lattice.origin = scene.grid.min;
   lattice.stagger = scene.method.stagger;
-  lattice.jitter = scene.method.jitter;
-  lattice.seed = scene.method.seed;
+  lattice.jitter = options_->points.jitter;
+  lattice.seed = options_->points.seed;
   std::vector<SeedPoint> out;
   try {
-    out = fill(*options_->solid, scene.frame, lattice, domain_box(scene), &fill_);
+    out = fill_body(*options_->solid, scene.frame, lattice, options_->points.zones,
+                    domain_box(scene), &fill_);
   } catch (const std::invalid_argument& e) {
     throw InputError(options_->where + ": " + e.what());
   }
@@ -144,7 +149,31 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
     throw InputError(
         options_->where +
         ": no part of this body lies inside the grid's box; move the body or enlarge grid.box");
+  seed_moments_ = moments_of(out, scene.frame);
+  examine_thickness(scene, out);
   return out;
+}
+
+/// One cell cannot bend, shear or show a wave: what it does is not the material's doing.
+void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds) {
+  constexpr double kThinShare = 0.2, kToldShare = 0.05;
+  MirrorSides mirrors{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t side = 0; side < 2; ++side)
+      mirrors[a][side] = scene.grid.boundary[a][side].kind != BoundaryKind::open;
+  const auto thickness = [&](double share) {
+    return thickness_of_share(*options_->solid, scene.frame, seeds, domain_box(scene), mirrors,
+                              share);
+  };
+  thickness_ = thickness(kToldShare);
+  const double thin = thickness(kThinShare);
+  if (options_->thin_allowed || thin > scene.grid.cell * (1 + 1e-9)) return;
+  throw InputError(fmt::format(
+      "{}: a fifth of this body's mass or more lies where it is {:.3g} cells thick or less, and "
+      "one "
+      "cell cannot bend or shear: use grid.cell {:.2g} m or smaller, a thicker body, or say "
+      "thin: allowed",
+      options_->where, thin / scene.grid.cell, thin / 3));
 }
 
 void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,

@@ -5,8 +5,13 @@
 
 #include "krater/app/card_doctor.hpp"
 #include "krater/app/command_line.hpp"
+#include "krater/app/folder_lock.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/simulation.hpp"
+#include "krater/app/snapshot.hpp"
+#include "krater/app/version.hpp"
+#include "krater/core/parallel.hpp"
+#include "krater/geometry/column.hpp"
 
 namespace krater {
 
@@ -16,14 +21,43 @@ namespace {
 // run's time only.
 constexpr double kRate2d = 12e6, kRate3d = 6e6;
 
-void print_body(const Simulation& sim, const Body& body, int index) {
-  const FillReport& f = body.fill_report();
-  const Totals t = sim.totals(index);
+const char* unit_of(Frame frame) { return frame == Frame::plane_strain ? "m^3 (1 m of y)" : "m^3"; }
+
+/// The body as drawn, in the domain, and what its points make of it.
+void print_shape(const Scene& scene, const Body& body) {
+  bool exact = false;
+  const VolumeMoments solid =
+      moments_in(*body.options().solid, scene.frame, domain_box(scene), &exact);
+  const VolumeMoments& points = body.seed_moments();
+  const double rho = body.material().density;
+  const Triple c = solid.centroid(), p = points.centroid();
+  const auto i = solid.inertia(), j = points.inertia();
   fmt::print(
-      "body {}: material {}, {:.0f} points, mass {:.6g} kg (points {:.6g}), thinnest {:.1f} "
-      "cells\n",
-      body.name(), body.material().name, t.count, f.measure_exact * body.material().density, t.mass,
-      f.smallest_thickness_in_cells);
+      "  solid ({}): volume {:.6g} {}, mass {:.6g} kg, centroid ({:.5g}, {:.5g}, {:.5g}) m\n",
+      exact ? "closed form" : "quadrature", solid.volume, unit_of(scene.frame), rho * solid.volume,
+      c[0], c[1], c[2]);
+  fmt::print(
+      "    inertia about it: xx {:.5g}, yy {:.5g}, zz {:.5g}, yz {:.3g}, xz {:.3g}, xy {:.3g} "
+      "kg m^2\n",
+      rho * i[0], rho * i[1], rho * i[2], rho * i[3] + 0.0, rho * i[4] + 0.0, rho * i[5] + 0.0);
+  const auto percent = [](double a, double b) { return 100 * (a / b - 1); };
+  fmt::print(
+      "  points - solid: mass {:+.4f} %, centroid ({:+.2g}, {:+.2g}, {:+.2g}) cells, inertia "
+      "xx {:+.3f}, yy {:+.3f}, zz {:+.3f} %\n",
+      percent(points.volume, solid.volume), (p[0] - c[0]) / scene.grid.cell,
+      (p[1] - c[1]) / scene.grid.cell, (p[2] - c[2]) / scene.grid.cell, percent(j[0], i[0]),
+      percent(j[1], i[1]), percent(j[2], i[2]));
+  fmt::print(
+      "  thickness along the grid's axes: {:.3g} cells in all; a twentieth of the mass lies "
+      "where it is below {:.3g} cells\n",
+      body.fill_report().smallest_thickness_in_cells, body.thickness() / scene.grid.cell);
+}
+
+void print_body(const Simulation& sim, const Body& body, int index) {
+  const Totals t = sim.totals(index);
+  fmt::print("body {}: material {}, {:.0f} points, mass {:.6g} kg\n", body.name(),
+             body.material().name, t.count, t.mass);
+  print_shape(sim.scene(), body);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
   fmt::print("\n  columns ({} bytes per point):", body.layout().stride());
@@ -83,9 +117,33 @@ void print_advice(const Scene& scene, double fastest, double closing) {
   }
 }
 
+/// A results folder with the start as its only frame, for a look at the set-up.
+void write_start(const Simulation& sim, const std::string& folder) {
+  const Scene& scene = sim.scene();
+  ResultsFolder results{folder, false};
+  FolderLock lock;
+  results.set_attributes({{"program", "krater " + version().program},
+                          {"revision", version().revision},
+                          {"title", scene.title},
+                          {"frame", std::string{name(scene.frame)}},
+                          {"cell", fmt::format("{:.17g} m", scene.grid.cell)}});
+  lock.take(results.path());
+  results.write_text("resolved.yaml", scene.resolved);
+  results.write_frame(make_frame(sim, 0));
+  Json summary;
+  summary["title"] = Json::of(scene.title);
+  summary["status"] = Json::of(std::string{"checked"});
+  summary["frame"] = Json::of(std::string{name(scene.frame)});
+  summary["cell"] = Json::of(scene.grid.cell);
+  summary["points"] = Json::of(static_cast<std::int64_t>(sim.point_count()));
+  results.write_summary(summary);
+  results.flush();
+}
+
 }  // namespace
 
 void print_check(const RunOptions& options) {
+  set_threads(options.threads);
   const Scene scene = read_scene(options.scene, options.overrides);
   for (const std::string& note : scene.notes) fmt::print("note: {}\n", note);
   const Simulation sim{scene};
@@ -105,6 +163,7 @@ void print_check(const RunOptions& options) {
   fmt::print("estimate: {:.0f} steps, {:.0f} MB, {:.1f} s on one core\n", steps,
              1e-6 * sim.bytes_per_point() * static_cast<double>(sim.point_count()),
              work / (dimension(scene.frame) == 3 ? kRate3d : kRate2d));
+  if (!options.output.empty()) write_start(sim, options.output);
   print_advice(scene, fastest, closing_speed(sim, fastest));
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& key : m.unused)

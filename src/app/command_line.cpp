@@ -96,6 +96,9 @@ int command_line(int argc, char** argv) {
   CLI::App* check_command =
       app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
   add_scene_options(check_command, options);
+  check_command->add_option("-o,--output", options.output,
+                            "also write the points at the start into this folder "
+                            "(tools/plot_scene draws them)");
   CLI::App* point_command = app.add_subcommand("point", "take one material through a loading path");
   add_scene_options(point_command, options);
   point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");

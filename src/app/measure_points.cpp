@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -19,7 +20,6 @@ MeasureContext make_context(const Scene& scene, const GridGeometry& geometry) {
     c.max[static_cast<std::size_t>(a)] = geometry.upper(a);
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t s = 0; s < 2; ++s) c.boundary[a][s] = scene.grid.boundary[a][s].kind;
-  c.points_per_direction = scene.method.points_per_direction;
   return c;
 }
 
@@ -54,11 +54,15 @@ std::string measure_unit(const MeasureOptions& m) {
 }
 
 std::vector<double> evaluate_measures(const Simulation& sim) {
-  const MeasureContext context = make_context(sim.scene(), sim.geometry());
+  MeasureContext context = make_context(sim.scene(), sim.geometry());
   std::map<int, BodyPoints> points;  // gathered once per body
   std::vector<double> out;
   for (const MeasureOptions& m : sim.scene().measures) {
     if (!points.contains(m.body)) points[m.body] = gather_points(sim, m.body);
+    // The widest spacing of the body: a surface is told to that.
+    const auto& per = sim.scene().bodies[static_cast<std::size_t>(m.body)].points.per_direction;
+    context.points_per_direction =
+        *std::min_element(per.begin(), per.begin() + sim.geometry().dimension);
     out.push_back(evaluate(m, points.at(m.body), context));
   }
   return out;

@@ -19,19 +19,29 @@ struct CellIndex {
   std::int64_t i = 0, j = 0, k = 0;
 };
 
+/// Per grid axis, m.
+inline std::array<double, 3> lattice_spacing(const LatticeOptions& options) {
+  std::array<double, 3> s{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    s[a] = options.spacing[a] > 0 ? options.spacing[a]
+                                  : options.cell / options.points_per_direction[a];
+  }
+  return s;
+}
+
 class LatticeCells {
  public:
   LatticeCells(const Box& region, Frame frame, const LatticeOptions& options)
       : dimensions_(dimension(frame)),
         stagger_(options.stagger),
-        spacing_(options.cell / options.points_per_direction),
+        spacing_(lattice_spacing(options)),
         origin_(options.origin) {
     if (is_empty(region, dimensions_)) return;
     for (int axis = 0; axis < dimensions_; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
       const std::size_t n = axis == dimensions_ - 1 ? 2 : a;  // the last axis always runs in k
-      const double low = std::floor((region.min[a] - origin_[a]) / spacing_);
-      const double high = std::ceil((region.max[a] - origin_[a]) / spacing_);
+      const double low = std::floor((region.min[a] - origin_[a]) / spacing_[a]);
+      const double high = std::ceil((region.max[a] - origin_[a]) / spacing_[a]);
       // Beyond this no index is exact, and no table would fit.
       if (!(std::abs(low) < 1e9) || !(std::abs(high) < 1e9)) {
         throw std::invalid_argument("the body is more than 1e9 lattice spacings large or away");
@@ -69,7 +79,8 @@ class LatticeCells {
 
   /// Area (2D) or volume (3D) of a whole cell.
   double content() const {
-    return dimensions_ == 3 ? spacing_ * spacing_ * spacing_ : spacing_ * spacing_;
+    const double area = spacing_[0] * spacing_[1];
+    return dimensions_ == 3 ? area * spacing_[2] : area;
   }
 
   /// Bounds in grid axes.
@@ -103,13 +114,13 @@ class LatticeCells {
   std::int64_t span(int n) const { return last(n) - first(n) + 1; }
 
   void set(Box& cell, std::size_t axis, double index) const {
-    cell.min[axis] = origin_[axis] + index * spacing_;
-    cell.max[axis] = origin_[axis] + (index + 1) * spacing_;
+    cell.min[axis] = origin_[axis] + index * spacing_[axis];
+    cell.max[axis] = origin_[axis] + (index + 1) * spacing_[axis];
   }
 
   int dimensions_;
   bool stagger_;
-  double spacing_;
+  std::array<double, 3> spacing_;
   std::array<double, 3> origin_;
   std::array<std::int64_t, 3> first_{};
   std::array<std::int64_t, 3> last_{};

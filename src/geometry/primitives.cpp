@@ -87,6 +87,16 @@ Box Primitive::extent(Frame frame) const {
   return in_frame(frame, {{r.x_min, r.y_min, 0}, {r.x_max, r.y_max, 0}});
 }
 
+void Primitive::clip_column(Frame frame, std::span<const Box> cells, CellPart* parts) const {
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    parts[n] = {};
+    if (is_empty(cells[n], dimension(frame))) continue;
+    const Place place = classify(frame, cells[n]);
+    if (place == Place::outside) continue;
+    parts[n] = place == Place::inside ? whole_box(frame, cells[n]) : clip(frame, cells[n]);
+  }
+}
+
 Place Primitive::classify(Frame frame, const Box& cell) const {
   return dimension(frame) == 3 ? classify_3d(cell) : classify_section(section(), cell);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "krater/geometry/csg.hpp"
 #include "scene/readers.hpp"
 
 namespace krater::scene {
@@ -12,6 +13,8 @@ constexpr double kMostPoints = 1e9;
 /// Of what a body may lose at the sides of the domain before it is said, and what round-off may
 /// claim.
 constexpr double kLostFraction = 1e-9;
+/// Bodies that touch overlap by round-off: in cells, and parts of a cell's content.
+constexpr double kTouching = 1e-6;
 
 void fail(const std::string& path, const std::string& message, Reading& reading) {
   const Node* node = &reading.root;
@@ -98,6 +101,7 @@ void check_sides(const BodyOptions& body, Reading& reading) {
   const Box extent = body.solid->extent(scene.frame);
   for (int axis = 0; axis < dimension(scene.frame); ++axis) {
     const auto a = static_cast<std::size_t>(axis);
+    if (!std::isfinite(extent.length(axis))) continue;  // meant to end at the domain
     const std::array<double, 2> outside{grid.min[a] - extent.min[a], extent.max[a] - grid.max[a]};
     for (std::size_t side = 0; side < 2; ++side) {
       if (outside[side] <= 1e-6 * grid.cell) continue;
@@ -124,7 +128,8 @@ double check_body(const BodyOptions& body, Reading& reading) {
   const Box domain{grid.min, grid.max};
   const CellPart part = body.solid->part(scene.frame, domain);
   const CellPart whole = body.solid->part(scene.frame, body.solid->extent(scene.frame));
-  if (!(part.measure > kLostFraction * whole.measure)) {
+  const double least = std::isfinite(whole.measure) ? kLostFraction * whole.measure : 0;
+  if (!(part.measure > least)) {
     fail("bodies." + body.name, "lies outside the domain", reading);
     return 0;
   }
@@ -134,7 +139,33 @@ double check_body(const BodyOptions& body, Reading& reading) {
     reading.scene.notes.push_back(body.where + ": is smaller than one cell (" +
                                   short_text(100 * cells) + " % of it)");
   }
-  return cells * std::pow(scene.method.points_per_direction, dimension(scene.frame));
+  double per_cell = 1;
+  for (int a = 0; a < dimension(scene.frame); ++a)
+    per_cell *= body.points.per_direction[static_cast<std::size_t>(a)];
+  return cells * per_cell;
+}
+
+/// Bodies that share material have that mass twice, and push each other apart from the start.
+void check_overlap(const BodyOptions& a, const BodyOptions& b, Reading& reading) {
+  const Frame frame = reading.scene.frame;
+  const int dim = dimension(frame);
+  const Box domain{reading.scene.grid.min, reading.scene.grid.max};
+  const Box common =
+      intersection(intersection(a.solid->extent(frame), b.solid->extent(frame), dim), domain, dim);
+  for (int axis = 0; axis < dim; ++axis) {
+    if (!(common.length(axis) > kTouching * reading.scene.grid.cell)) return;
+  }
+  const auto both = make_boolean(Boolean::intersect, {a.solid, b.solid});
+  const CellPart part = both->part(frame, common);
+  if (!(part.section > kTouching * std::pow(reading.scene.grid.cell, dim))) return;
+  std::string place;
+  for (int axis = 0; axis < dim; ++axis)
+    place += (axis == 0 ? "" : ", ") + short_text(part.centroid[static_cast<std::size_t>(axis)]);
+  fail("bodies." + b.name,
+       "overlaps body " + quote(a.name) + " by " + short_text(part.measure) + " m^3 about (" +
+           place + ") m; move one of them, or say who wins: bodies." + a.name + ".wins_over: [" +
+           b.name + "] or the other way round",
+       reading);
 }
 
 }  // namespace
@@ -149,6 +180,10 @@ void check_scene(Reading& reading) {
   for (const BodyOptions& body : scene.bodies) {
     points += check_body(body, reading);
     used[static_cast<std::size_t>(body.material)] = true;
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
+      check_overlap(scene.bodies[i], scene.bodies[j], reading);
   }
   if (points > kMostPoints) {
     fail("grid.cell", "about " + short_text(points) + " points, more than 1e9; use a larger cell",

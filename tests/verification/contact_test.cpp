@@ -117,6 +117,64 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
   return {velocity_of(run, 0), velocity_of(run, 1)};
 }
 
+/// Hertz (exact.md D8): equal steel spheres of 1 m that meet at 17.3 m/s; the contact radius is
+/// sqrt(R d/2) = 0.1 m.
+struct Hertz {
+  double peak_force, duration;  ///< over the exact ones
+};
+
+/// m x'' = -k x^1.5 by small steps: greatest force, and time from 10 to 90 % of the impulse.
+Hertz hertz_exact(double mass, double k, double speed) {
+  Hertz out{};
+  double x = 0, v = speed, t = 0, start = 0;
+  const double dt = 1e-7;
+  while (v > -0.8 * speed) {
+    v -= k * std::pow(x, 1.5) / mass * dt;
+    x += v * dt;
+    t += dt;
+    out.peak_force = std::max(out.peak_force, k * std::pow(x, 1.5));
+    if (v > 0.8 * speed) start = t;
+  }
+  out.duration = t - start;
+  return out;
+}
+
+Hertz spheres(int cells_per_radius) {
+  const double E = 210e9, nu = 0.3, speed = 17.3;
+  std::ostringstream yaml;
+  yaml.precision(17);
+  yaml << "frame: axisymmetric\ngrid:\n  cell: " << 1.0 / cells_per_radius
+       << "\n  box: {min: [0, -2.5], max: [1.5, 2.5]}\n  boundary: {r_min: axis}\n"
+          "time: {end: 1}\nmaterials:\n  steel: {density: 7850, youngs_modulus: 210e9, "
+          "poisson_ratio: 0.3, eos: linear, strength: elastic}\nbodies:\n"
+          "  upper: {material: steel, shape: {sphere: {radius: 1, center: [0, 0, 1.002]}}, "
+          "velocity: [0, "
+       << -speed / 2
+       << "]}\n  lower: {material: steel, shape: {sphere: {radius: 1, center: [0, 0, -1.002]}}, "
+          "velocity: [0, "
+       << speed / 2 << "]}\ncontact: {}\n";
+  Run run = start_text(yaml.str());
+  const double mass = run.sim->totals(0).mass;
+  const double k = 4.0 / 3.0 * E / (2 * (1 - nu * nu)) * std::sqrt(0.5);
+  const Hertz exact = hertz_exact(mass / 2, k, speed);
+  // Momentum of one sphere, and the force as its slope over a twentieth of the duration.
+  const double window = exact.duration / 20;
+  std::vector<std::array<double, 2>> p;
+  double start = 0, end = 0, peak = 0;
+  while (run.sim->time() < 5e-3 && end <= 0) {
+    run.sim->step(1);
+    const double done = 0.5 * (1 + velocity_of(run, 0) / (speed / 2)), t = run.sim->time();
+    p.push_back({t, done});
+    if (done < 0.1) start = t;
+    if (done > 0.9) end = t;
+  }
+  for (std::size_t i = 0, j = 0; i < p.size(); ++i) {
+    while (p[i][0] - p[j][0] > window) ++j;
+    if (j > 0) peak = std::max(peak, mass * speed * (p[i][1] - p[j][1]) / (p[i][0] - p[j][0]));
+  }
+  return {peak / exact.peak_force, (end - start) / exact.duration};
+}
+
 }  // namespace
 
 TEST_SUITE("verification") {
@@ -190,21 +248,21 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("a block slides by Coulomb friction, and friction takes the energy") {
-    // The edge that leads ploughs a little: an error of the corner's cells, of first order.
     const Sliding coarse = slide(0.02), fine = slide(0.01);
     MESSAGE("velocity lost / (mu g t): ", coarse.lost, ", ", fine.lost, "; friction work / exact ",
             coarse.work, ", ", fine.work);
-    CHECK(fine.lost == doctest::Approx(1).epsilon(0.015));
-    CHECK(fine.work == doctest::Approx(1).epsilon(0.015));
-    CHECK(std::abs(fine.lost - 1) < 0.55 * std::abs(coarse.lost - 1));
+    CHECK(coarse.lost == doctest::Approx(1).epsilon(0.02));
+    for (const double share : {coarse.work, fine.lost, fine.work})
+      CHECK(share == doctest::Approx(1).epsilon(0.01));
   }
 
   TEST_CASE("three thin plates in the cells of one: no penetration, momentum exact") {
     const double h = 0.02;
-    Run run = start_text(strip(50, material(kSteel) + material(kAluminium),
-                               slab("left", kSteel, -1.6 * h, -0.5 * h, 30) +
-                                   slab("middle", kAluminium, -0.3 * h, 0.3 * h, 0) +
-                                   slab("right", kSteel, 0.5 * h, 1.7 * h, -20)));
+    Run run =
+        start_text(strip(50, material(kSteel) + material(kAluminium),
+                         slab("left", kSteel, -1.6 * h, -0.5 * h, 30) +
+                             slab("middle", kAluminium, -0.3 * h, 0.3 * h, 0) +
+                             "    thin: allowed\n" + slab("right", kSteel, 0.5 * h, 1.7 * h, -20)));
     const Totals start = run.sim->totals();
     double scale = 0;
     for (int b = 0; b < 3; ++b) scale += std::abs(run.sim->totals(b).momentum[1]);
@@ -234,5 +292,37 @@ TEST_SUITE("verification") {
                steel = column(run, field::Position::info, 1, 1);
     CHECK(*std::min_element(foam.begin(), foam.end()) >
           *std::max_element(steel.begin(), steel.end()));
+  }
+
+  TEST_CASE("Hertz: force and duration of the impact of two spheres") {
+    for (const int cells : {20, 40}) {
+      const Hertz h = spheres(cells);
+      MESSAGE(cells, " cells per radius: peak force ", h.peak_force, ", duration ", h.duration,
+              " of Hertz'");
+      CHECK(h.peak_force == doctest::Approx(1).epsilon(0.05));
+      CHECK(h.duration == doctest::Approx(1).epsilon(0.05));
+    }
+  }
+
+  TEST_CASE("oblique plates a thousandth of a cell apart slide past each other") {
+    // The joint's normal errs by 1 to 2 % on lattices at 20 degrees to it, so the plates part at
+    // that share of the sliding speed until the gap is seen; along the joint nothing may happen.
+    for (const std::string normal : {"volume_gradient", "logistic_regression"}) {
+      const std::string box = "{rotate: {axis: y, angle: 20 degree, shape: {box: {min: [-0.03, ";
+      Run run = start_text(
+          "frame: plane_strain\ngrid: {cell: 0.001, box: {min: [-0.06, -0.06], max: [0.06, "
+          "0.06]}}\n"
+          "time: {end: 1e-5}\nmaterials:\n" +
+          material(kSteel) + "bodies:\n  lower: {material: steel, shape: " + box +
+          "-0.008], max: [0.03, -5e-7]}}}}}\n  upper: {material: steel, shape: " + box +
+          "5e-7], max: [0.03, 0.008]}}}}, velocity: [939.693, -342.020]}\ncontact: {normal: " +
+          normal + "}\n");
+      run_to(run, 1e-5);
+      const double x = velocity_of(run, 0, 0), z = velocity_of(run, 0, 1);
+      const double along = 0.939693 * x - 0.342020 * z, across = 0.342020 * x + 0.939693 * z;
+      MESSAGE(normal, ": lower plate ", along, " m/s along, ", across, " m/s across, of 1000");
+      CHECK(std::abs(along) < 2);
+      CHECK(std::abs(across) < 30);
+    }
   }
 }

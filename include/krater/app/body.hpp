@@ -26,12 +26,16 @@ class Body {
   const Layout& layout() const { return layout_; }
   const std::vector<NamedStage>& stages() const { return stages_; }
   const FillReport& fill_report() const { return fill_; }
+  const VolumeMoments& seed_moments() const { return seed_moments_; }
+  /// Where a twentieth of the mass is thinner [m], see geometry/thickness.hpp.
+  double thickness() const { return thickness_; }
   double q_lin() const { return q_lin_; }
   double initial_sound_speed() const { return sound_speed_; }  ///< longitudinal, undeformed [m/s]
   bool degrades() const { return degrades_; }  ///< damage weakens the stress, s = (1 - phi) s~
   BodyKernelData kernel_data() const;
 
-  /// Seeds of the body inside the domain; throws InputError when there are none.
+  /// Seeds of the body inside the domain; throws InputError when there are none, or when the body
+  /// is no more than a cell thick.
   std::vector<SeedPoint> seeds(const Scene& scene);
   /// A new point as one record of stride/8 doubles.
   void make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
@@ -41,6 +45,7 @@ class Body {
 
  private:
   void declare_method_columns(const Scene& scene);
+  void examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds);
   void add_stages(const StageFactory& factory);
 
   const BodyOptions* options_;
@@ -49,6 +54,8 @@ class Body {
   std::vector<NamedStage> stages_;
   std::vector<const Stage*> stage_pointers_;
   FillReport fill_;
+  VolumeMoments seed_moments_;
+  double thickness_ = 0;
   bool degrades_ = false;
   double q_lin_ = 0, q_quad_ = 0, sound_speed_ = 0;
 };

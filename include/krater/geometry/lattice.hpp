@@ -18,7 +18,9 @@
 // rod under uniform pressure would not be in balance. Its one merit, an exact int r dm, is not a
 // conserved quantity of this frame.
 //
-// Slivers (cells less than half full) are not points of their own: see `fill`.
+// Slivers (cells less than half full) are not points of their own: see `fill`. Where the centroid
+// of a part falls outside of the solid (a cell cut by a hollow surface) the point is moved along
+// the axis with the nearest material, a twentieth of a spacing into it.
 #pragma once
 
 #include <array>
@@ -32,12 +34,22 @@
 namespace krater {
 
 struct LatticeOptions {
-  double cell = 0;                 ///< grid spacing h, m
-  int points_per_direction = 2;    ///< lattice cells per grid cell and axis
-  std::array<double, 3> origin{};  ///< a node of the grid, grid axes, m
-  bool stagger = true;             ///< shift odd columns by half a spacing along z
-  double jitter = 0;               ///< greatest random shift per axis, in spacings; measures stay
-  std::uint64_t seed = 0;          ///< of the jitter
+  double cell = 0;                                   ///< grid spacing h, m
+  std::array<int, 3> points_per_direction{2, 2, 2};  ///< lattice cells per grid cell, per grid axis
+  std::array<double, 3> origin{};                    ///< a node of the grid, grid axes, m
+  std::array<double, 3> spacing{};                   ///< m; where 0: cell / points_per_direction
+  bool fit_to_body = false;  ///< see `fill_body`: lattice along the body's own axes instead
+  bool stagger = true;       ///< shift odd columns by half a spacing along z
+  double jitter = 0;         ///< greatest random shift per axis, in spacings; measures stay
+  std::uint64_t seed = 0;    ///< of the jitter
+};
+
+/// More points inside a box: `points_per_direction` there, one less per axis for every `falloff`
+/// grid cells away from it, down to the lattice's own number.
+struct RefinedZone {
+  Box box;  ///< grid axes; moved out to the next grid nodes
+  std::array<int, 3> points_per_direction{2, 2, 2};
+  int falloff = 2;
 };
 
 struct SeedPoint {
@@ -47,6 +59,10 @@ struct SeedPoint {
   /// rod aligned with the grid the seeds' domains x -+ half_width tile the body exactly.
   std::array<double, 3> half_width{};
 };
+
+/// Moments of the points as they move: lumps (rings, lines of 1 m of y) without extent of their
+/// own.
+VolumeMoments moments_of(const std::vector<SeedPoint>& points, Frame frame);
 
 /// What came out. `count == 0`: nothing of the body is in the domain; `smallest_thickness_in_cells
 /// < 1`: thinner than a grid cell. Neither throws here: the caller knows the scene's file and line.
@@ -73,5 +89,15 @@ struct FillReport {
 /// no lattice.
 std::vector<SeedPoint> fill(const Solid& solid, Frame frame, const LatticeOptions& options,
                             const Box& domain, FillReport* report = nullptr);
+
+/// As `fill`, with zones of more points, each piece of constant spacing filled for itself (slivers
+/// do not cross its sides; points left lighter than a quarter go to the nearest point), and with
+/// `fit_to_body`: the lattice then begins at a corner of the body's bounding box and its spacings
+/// divide the edges of that evenly; in 3d it runs along the body's own axes before it was turned (a
+/// body turned as a whole and not stretched), for which the domain must hold all of the body. Zones
+/// and fit_to_body exclude each other. Throws std::invalid_argument.
+std::vector<SeedPoint> fill_body(const Solid& solid, Frame frame, const LatticeOptions& options,
+                                 const std::vector<RefinedZone>& zones, const Box& domain,
+                                 FillReport* report = nullptr);
 
 }  // namespace krater

@@ -25,6 +25,7 @@ class Primitive : public Solid {
  public:
   using Solid::contains;
   Box extent(Frame frame) const override;
+  void clip_column(Frame frame, std::span<const Box> cells, CellPart* parts) const override;
   Place classify(Frame frame, const Box& cell) const override;
   CellPart clip(Frame frame, const Box& cell) const override;
   CellPart part(Frame frame, const Box& domain) const override { return clip(frame, domain); }
@@ -45,6 +46,8 @@ class BoxSolid final : public Primitive {
 
   using Primitive::contains;
   bool contains(double x, double y, double z) const override;
+  void spans(const Line& line, Spans& out) const override;
+  std::optional<VolumeMoments> moments() const override;
   Box bounding_box() const override { return box_; }
   void require(Frame frame) const override;
 
@@ -67,6 +70,10 @@ class CylinderSolid final : public Primitive {
 
   using Primitive::contains;
   bool contains(double x, double y, double z) const override;
+  void spans(const Line& line, Spans& out) const override;
+  bool revolved_about(const Line& axis) const override;
+  std::optional<VolumeMoments> moments() const override;
+  double support(const Vector3& d) const override;
   Box bounding_box() const override;
   void require(Frame frame) const override;
 
@@ -90,6 +97,10 @@ class SphereSolid final : public Primitive {
 
   using Primitive::contains;
   bool contains(double x, double y, double z) const override;
+  void spans(const Line& line, Spans& out) const override;
+  bool revolved_about(const Line& axis) const override;
+  std::optional<VolumeMoments> moments() const override;
+  double support(const Vector3& d) const override;
   Box bounding_box() const override;
   void require(Frame frame) const override;
 

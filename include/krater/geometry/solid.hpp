@@ -9,15 +9,21 @@
 // section is the cut y = 0; in the axisymmetric frame its half x = r >= 0, and r < 0 never counts.
 // A domain box with its minimum on a plane of symmetry thus makes the quarter or half body exactly.
 //
-// A solid has to know `contains` and `bounding_box`; the rest follows by adaptive subdivision,
-// whose error falls with the finest cell. The primitives (primitives.hpp) override it with exact
-// formulas.
+// A solid has to know its `spans` on lines and its bounding box (or `support`); the rest follows by
+// adaptive quadrature over lines along z (column.hpp). Box, cylinder and sphere (primitives.hpp)
+// override it with exact formulas.
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
+#include <span>
 
+#include "krater/geometry/affine.hpp"
 #include "krater/geometry/box.hpp"
 #include "krater/geometry/frame.hpp"
+#include "krater/geometry/line.hpp"
+#include "krater/geometry/moments.hpp"
 #include "krater/geometry/section.hpp"
 
 namespace krater {
@@ -47,14 +53,35 @@ class Solid {
  public:
   virtual ~Solid() = default;
 
-  /// Is the point of 3D space in the closed solid?
-  virtual bool contains(double x, double y, double z) const = 0;
+  /// The parts of a line in the solid. Surfaces (surface.hpp) know lines along x, y or z only;
+  /// `transformed` never asks them for others.
+  virtual void spans(const Line& line, Spans& out) const = 0;
 
-  /// In 3D space.
-  virtual Box bounding_box() const = 0;
+  /// Is the point of 3D space in the closed solid?
+  virtual bool contains(double x, double y, double z) const;
+
+  /// In 3D space; infinite where the solid is. By `support` unless overridden; one of the two must
+  /// be.
+  virtual Box bounding_box() const;
+
+  /// Greatest d . x over the solid (an upper bound for intersections and differences).
+  virtual double support(const Vector3& d) const;
+
+  /// Is the solid one of revolution about this line?
+  virtual bool revolved_about(const Line&) const { return false; }
+
+  /// Exact moments of the whole solid, where known in closed form (to round-off).
+  virtual std::optional<VolumeMoments> moments() const { return std::nullopt; }
+
+  /// The image under a map, for solids that know better than to map every line; null: wrap it.
+  virtual std::shared_ptr<const Solid> mapped(const Affine&) const { return nullptr; }
+
+  /// Of a solid that was only moved, turned and scaled evenly as a whole: the solid before, and the
+  /// map. Else null.
+  virtual const Solid* unmapped(Affine&) const { return nullptr; }
 
   /// Throws std::invalid_argument, with the reason, if the solid has no meaning in the frame.
-  virtual void require(Frame) const {}
+  virtual void require(Frame frame) const;
 
   /// The bounding box of the solid or of its section, in grid axes.
   virtual Box extent(Frame frame) const;
@@ -64,6 +91,10 @@ class Solid {
 
   /// The part of a cell in the solid; for cells of a lattice.
   virtual CellPart clip(Frame frame, const Box& cell) const;
+
+  /// The parts of cells that lie above each other along the last axis: same bounds across it,
+  /// ascending along it. `parts` has their number; empty cells give empty parts.
+  virtual void clip_column(Frame frame, std::span<const Box> cells, CellPart* parts) const;
 
   /// The part of a large box, such as the domain, in the solid.
   virtual CellPart part(Frame frame, const Box& domain) const;
@@ -79,5 +110,8 @@ class Solid {
   /// Least extent (m), along the grid axes, of what the domain leaves of the solid.
   double smallest_thickness(Frame frame, const Box& domain) const;
 };
+
+/// The image of a solid under an affine map. Throws std::invalid_argument for a singular map.
+std::shared_ptr<const Solid> transformed(std::shared_ptr<const Solid> solid, const Affine& map);
 
 }  // namespace krater

@@ -62,10 +62,22 @@ class FieldFunction {
   virtual Triple operator()(const Triple& x, const Triple& X, double t) const = 0;
 };
 
+/// How a body is divided into points.
+struct PointOptions {
+  std::array<int, 3> per_direction{2, 2, 2};  ///< per grid axis
+  bool fit_to_body = false;
+  double jitter = 0;  ///< fraction of the point spacing
+  unsigned seed = 1;
+  std::vector<RefinedZone> zones;
+};
+
 struct BodyOptions {
   std::string name, where;
-  int material = -1;  ///< index in Scene::materials
-  std::shared_ptr<const Solid> solid;
+  int material = -1;                   ///< index in Scene::materials
+  std::shared_ptr<const Solid> solid;  ///< without what other bodies win of it
+  std::vector<int> wins_over;          ///< bodies that give way where they overlap this one
+  bool thin_allowed = false;           ///< may be one cell thick or less
+  PointOptions points;
   std::shared_ptr<const FieldFunction> velocity;  ///< initial velocity; null: at rest
 };
 

@@ -59,7 +59,7 @@ Box filled(const MeasureContext& context) {
 BodyPoints at_rest(const Solid& solid, const MeasureContext& context, Triple origin = {}) {
   LatticeOptions lattice;
   lattice.cell = context.h;
-  lattice.points_per_direction = context.points_per_direction;
+  lattice.points_per_direction.fill(context.points_per_direction);
   lattice.origin = origin;
   BodyPoints body;
   for (const SeedPoint& seed : fill(solid, context.frame, lattice, filled(context))) {

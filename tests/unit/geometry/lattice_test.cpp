@@ -212,7 +212,7 @@ TEST_SUITE("unit") {
     const BoxSolid block({{0, 0, 0}, {1, 1, 1}});
     LatticeOptions options = spacing(0.5);
     CHECK_THROWS_AS(fill(block, Frame::axisymmetric, options, everywhere), std::invalid_argument);
-    options.points_per_direction = 0;
+    options.points_per_direction = {0, 0, 0};
     CHECK_THROWS_AS(fill(ball, Frame::cartesian_3d, options, everywhere), std::invalid_argument);
     CHECK_THROWS_AS(fill(ball, Frame::cartesian_3d, spacing(0), everywhere), std::invalid_argument);
     CHECK_THROWS_AS(fill(ball, Frame::cartesian_3d, spacing(1e-12), everywhere),
