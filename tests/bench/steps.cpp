@@ -3,6 +3,7 @@
 // and nothing is measured on the way, so that two runs of different length differ by steps alone
 // (counts of instructions), and a median over steps is not that of the machine's other users.
 #include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -150,7 +151,15 @@ void print_times(const char* name, const std::vector<double>& seconds, double po
 struct Samples {
   std::array<std::vector<double>, phase_names.size()> phases;  ///< [s] per step
   std::vector<double> step;                                    ///< [s] wall clock
+  std::vector<double> cpu;                                     ///< [s] of all threads together
 };
+
+/// Of the process: other programs on the machine take wall-clock time, not this.
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 Samples time_steps(Simulation& sim, int steps, double until) {
   using Clock = std::chrono::steady_clock;
@@ -159,9 +168,11 @@ Samples time_steps(Simulation& sim, int steps, double until) {
     std::array<double, phase_names.size()> before{};
     for (std::size_t k = 0; k < before.size(); ++k)
       before[k] = sim.stepper().seconds(static_cast<Phase>(k));
+    const double cpu = cpu_seconds();
     const auto start = Clock::now();
     sim.step(until);
     samples.step.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    samples.cpu.push_back(cpu_seconds() - cpu);
     for (std::size_t k = 0; k < before.size(); ++k)
       samples.phases[k].push_back(sim.stepper().seconds(static_cast<Phase>(k)) - before[k]);
   }
@@ -216,6 +227,8 @@ int main(int argc, char** argv) try {
     std::printf(", ");
   }
   print_times("step", samples.step, points);
+  std::printf(", ");
+  print_times("cpu", samples.cpu, points);
   const Flow flow = options.flow && !sim.done() ? watch_flow(sim, until) : Flow{};
   std::printf("},\n \"change_cell\": %.4f, \"change_block\": %.4f}\n", flow.cells, flow.blocks);
   return 0;
