@@ -3,7 +3,6 @@
 // and nothing is measured on the way, so that two runs of different length differ by steps alone
 // (counts of instructions), and a median over steps is not that of the machine's other users.
 #include <sys/resource.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <map>
 #include <string>
 #include <string_view>
@@ -155,11 +155,7 @@ struct Samples {
 };
 
 /// Of the process: other programs on the machine take wall-clock time, not this.
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Samples time_steps(Simulation& sim, int steps, double until) {
   using Clock = std::chrono::steady_clock;
