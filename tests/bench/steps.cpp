@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <map>
 #include <string>
 #include <string_view>
@@ -150,7 +151,11 @@ void print_times(const char* name, const std::vector<double>& seconds, double po
 struct Samples {
   std::array<std::vector<double>, phase_names.size()> phases;  ///< [s] per step
   std::vector<double> step;                                    ///< [s] wall clock
+  std::vector<double> cpu;                                     ///< [s] of all threads together
 };
+
+/// Of the process: other programs on the machine take wall-clock time, not this.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Samples time_steps(Simulation& sim, int steps, double until) {
   using Clock = std::chrono::steady_clock;
@@ -159,9 +164,11 @@ Samples time_steps(Simulation& sim, int steps, double until) {
     std::array<double, phase_names.size()> before{};
     for (std::size_t k = 0; k < before.size(); ++k)
       before[k] = sim.stepper().seconds(static_cast<Phase>(k));
+    const double cpu = cpu_seconds();
     const auto start = Clock::now();
     sim.step(until);
     samples.step.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    samples.cpu.push_back(cpu_seconds() - cpu);
     for (std::size_t k = 0; k < before.size(); ++k)
       samples.phases[k].push_back(sim.stepper().seconds(static_cast<Phase>(k)) - before[k]);
   }
@@ -216,6 +223,8 @@ int main(int argc, char** argv) try {
     std::printf(", ");
   }
   print_times("step", samples.step, points);
+  std::printf(", ");
+  print_times("cpu", samples.cpu, points);
   const Flow flow = options.flow && !sim.done() ? watch_flow(sim, until) : Flow{};
   std::printf("},\n \"change_cell\": %.4f, \"change_block\": %.4f}\n", flow.cells, flow.blocks);
   return 0;
