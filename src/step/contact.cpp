@@ -16,7 +16,7 @@ namespace {
 // the unevenness of the lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kValley = 0.03;
 constexpr double kSteeper = 10;
-constexpr int kHalo = 2, kSweeps = 3;
+constexpr int kHalo = 2, kSweeps = 3, kMostContacts = 8;  // at a node
 constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
@@ -81,7 +81,7 @@ void ContactSet::relink(const BlockGrid& grid) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
-      groups_.push_back({n, static_cast<int>(end - n), {}, {}});
+      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}});
     }
     n = end;
   }
@@ -89,12 +89,16 @@ void ContactSet::relink(const BlockGrid& grid) {
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
 }
 
-ContactWork ContactSet::apply(BlockGrid& grid) {
+ContactWork ContactSet::apply(BlockGrid& grid, RigidBodies& rigid, bool projection) {
   for_each(groups_.size(), [&](std::size_t g) {
-    results_[g] = touch_group(grid, groups_[g], scratch_[static_cast<unsigned>(thread_index())]);
+    find_contacts(grid, groups_[g], scratch_[static_cast<unsigned>(thread_index())], rigid);
   });
+  if (rigid.any()) foretell(grid, rigid);
+  for_each(groups_.size(),
+           [&](std::size_t g) { results_[g] = exchange_group(grid, groups_[g], rigid); });
   ContactWork sum;
   for (const ContactWork& r : results_) sum.add(r);
+  if (!projection) hand_over(rigid, sum);
   return sum;
 }
 
@@ -245,35 +249,60 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   sum.nodes += 1;
 }
 
-ContactWork ContactSet::touch_group(BlockGrid& grid, Group& group, Scratch& scratch) const {
-  ContactWork sum;
+void ContactSet::find_contacts(BlockGrid& grid, Group& group, Scratch& scratch,
+                               const RigidBodies& rigid) const {
+  group.contacts.clear();
+  group.shares.clear();
   bool filled = false;
-  const auto block = [&](int f) -> NodeBlock& {
+  const auto block = [&](int f) -> const NodeBlock& {
     return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
   };
-  Contact contacts[8];
   for (int n = 0; n < kBlockNodes; ++n) {
-    const auto node = [&](int f) { return block(f).nodes + kNodeDoubles * n; };
+    const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
     int count = 0, at = 0;
     for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
       at += (rest % edge_ + kHalo) * stride_[a];
     for (int a = 0; a < group.fields; ++a)
-      for (int b = a + 1; b < group.fields && node(a)[kMass] > 0; ++b) {
-        if (!(node(b)[kMass] > 0) || count == 8) continue;
+      for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
+        if (!(mass(b) > 0) || count == kMostContacts) continue;
+        if (rigid.find(block(a).field) && rigid.find(block(b).field)) continue;
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
-        contacts[count] = {a, b, {}};
-        if (find_contact(scratch, group.fields, at, contacts[count])) ++count;
+        Contact contact{n, a, b, {}};
+        if (!find_contact(scratch, group.fields, at, contact)) continue;
+        group.contacts.push_back(contact);
+        ++count;
       }
+  }
+}
+
+ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
+                                       const RigidBodies& rigid) const {
+  ContactWork sum;
+  const auto block = [&](int f) -> NodeBlock& {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+  };
+  const auto touch = [&](const Contact& c) {
+    const bool a_is_rigid = rigid.find(block(c.a).field) != nullptr;
+    if (a_is_rigid || rigid.find(block(c.b).field)) {
+      const Strike strike = strike_of(grid, group, c, a_is_rigid);
+      return exchange(strike, twists_[static_cast<std::size_t>(strike.body)],
+                      share_of(group, strike.body), sum);
+    }
+    exchange(block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
+             options_.friction_of(block(c.a).field, block(c.b).field), sum);
+  };
+  for (std::size_t first = 0, end = 0; first < group.contacts.size(); first = end) {
+    while (end < group.contacts.size() && group.contacts[end].node == group.contacts[first].node)
+      ++end;
     const double before = sum.nodes;
-    for (int sweep = 0; sweep < (count > 1 ? kSweeps : 1); ++sweep)
-      for (int c = 0; c < count; ++c)
-        exchange(node(contacts[c].a), node(contacts[c].b), contacts[c],
-                 options_.friction_of(block(contacts[c].a).field, block(contacts[c].b).field), sum);
+    for (int sweep = 0; sweep < (end - first > 1 ? kSweeps : 1); ++sweep)
+      for (std::size_t c = first; c < end; ++c) touch(group.contacts[c]);
     if (sum.nodes == before) continue;
-    for (int c = 0; c < count; ++c)
-      for (const int f : {contacts[c].a, contacts[c].b}) block(f).still = block(f).inert = false;
+    for (std::size_t c = first; c < end; ++c)
+      for (const int f : {group.contacts[c].a, group.contacts[c].b})
+        block(f).still = block(f).inert = false;
   }
   return sum;
 }
