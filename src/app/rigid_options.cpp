@@ -5,7 +5,8 @@ namespace krater {
 
 namespace {
 
-constexpr double kCut = 1e-6;  // cells by which a body may miss a plane of symmetry and is cut by it
+constexpr double kCut =
+    1e-6;  // cells by which a body may miss a plane of symmetry and is cut by it
 
 }  // namespace
 

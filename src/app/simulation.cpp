@@ -268,8 +268,7 @@ void Simulation::load_rigid_bodies() {
       for (int i = 0; i < patch.count; ++i) {
         Triple x{}, X{};
         for (int a = 0; a < geometry_.dimension; ++a) {
-          x[static_cast<std::size_t>(a)] =
-              component(patch, c.stride, c.position + kLanes * a, i);
+          x[static_cast<std::size_t>(a)] = component(patch, c.stride, c.position + kLanes * a, i);
           X[static_cast<std::size_t>(a)] =
               component(patch, c.stride, body.options().reference + kLanes * a, i);
         }

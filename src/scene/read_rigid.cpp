@@ -17,8 +17,9 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading) {
   const Node* velocity = block.require("velocity", "for example [0, -10 m/s], or rigid: free");
   if (velocity) {
     if (body.velocity)
-      block.fail(*velocity, "the body has a velocity at the start too; a prescribed motion needs "
-                            "only rigid.velocity");
+      block.fail(*velocity,
+                 "the body has a velocity at the start too; a prescribed motion needs "
+                 "only rigid.velocity");
     if (const std::optional<ReadField> field = read_field(*velocity, "m/s", reading)) {
       body.velocity = field->field;
       block.record("velocity", field->resolved);
@@ -33,8 +34,7 @@ void check_rigid(Reading& reading) {
   for (const BodyOptions& body : scene.bodies) {
     const Node* node = reading.root.find("bodies")->find(body.name);
     if (!body.rigid()) {
-      const MaterialOptions& material =
-          scene.materials[static_cast<std::size_t>(body.material)];
+      const MaterialOptions& material = scene.materials[static_cast<std::size_t>(body.material)];
       if (material.bare)
         reading.problems.add(node->file, node->line, node->path,
                              "material " + quote(material.name) +

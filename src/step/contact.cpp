@@ -17,7 +17,7 @@ namespace {
 constexpr double kValley = 0.03;
 constexpr double kSteeper = 10;
 constexpr int kHalo = 2, kSweeps = 3, kMostContacts = 8;  // at a node
-constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
+constexpr int kMass = 3, kChange = 4, kVolume = 7;        // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 

@@ -54,7 +54,10 @@ ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& gro
   const NodeBlock& a = grid.node_blocks[group.first + static_cast<std::size_t>(contact.a)];
   const NodeBlock& b = grid.node_blocks[group.first + static_cast<std::size_t>(contact.b)];
   const NodeBlock &body = a_is_rigid ? a : b, &other = a_is_rigid ? b : a;
-  Strike out{other.nodes + kNodeDoubles * contact.node, body.field, contact.normal, {},
+  Strike out{other.nodes + kNodeDoubles * contact.node,
+             body.field,
+             contact.normal,
+             {},
              options_.friction_of(a.field, b.field)};
   if (!a_is_rigid)
     for (double& n : out.normal) n = -n;
@@ -117,8 +120,7 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
       const RigidBody* body = rigid.find(a) ? rigid.find(a) : rigid.find(b);
       if (!body || !body->options().free) continue;
       const Strike strike = strike_of(grid, group, c, rigid.find(a) != nullptr);
-      probe(strike, twists_[static_cast<std::size_t>(strike.body)],
-            share_of(group, strike.body));
+      probe(strike, twists_[static_cast<std::size_t>(strike.body)], share_of(group, strike.body));
     }
   });
   for (const RigidBody& body : rigid.all()) {
@@ -131,8 +133,7 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
     const Eigen::Matrix<double, 6, 6> mobility = body.mobility();
     const Eigen::Matrix<double, 6, 6> system =
         Eigen::Matrix<double, 6, 6>::Identity() + mobility * all.stiffness;
-    const Eigen::Matrix<double, 6, 1> change =
-        system.partialPivLu().solve(mobility * all.push);
+    const Eigen::Matrix<double, 6, 1> change = system.partialPivLu().solve(mobility * all.push);
     RigidTwist& twist = twists_[static_cast<std::size_t>(all.body)];
     twist.velocity += change.head<3>();
     twist.spin += change.tail<3>();

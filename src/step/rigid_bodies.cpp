@@ -27,8 +27,7 @@ const RigidBody* RigidBodies::find(int body) const {
   return &bodies_[static_cast<std::size_t>(of_body_[b])];
 }
 
-void RigidBodies::write_velocities(BlockGrid& grid,
-                                   const std::vector<BodyKernelData>& data) const {
+void RigidBodies::write_velocities(BlockGrid& grid, const std::vector<BodyKernelData>& data) const {
   for (Patch& patch : grid.patches) {
     const RigidBody* body = find(patch.body);
     if (!body) continue;
@@ -68,8 +67,7 @@ void RigidBodies::finish(const BlockGrid& grid, double dt) {
 }
 
 void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry,
-                       const BoundarySet& boundary, const PointColumns& c,
-                       unsigned char* leavers) {
+                       const BoundarySet& boundary, const PointColumns& c, unsigned char* leavers) {
   const RigidBody& body = *find(patch.body);
   const int dimension = geometry.dimension;
   PatchResult& result = patch.result;
@@ -86,7 +84,7 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
       component(patch, c.stride, c.position + kLanes * a, i) = x[a];
       component(patch, c.stride, c.velocity + kLanes * a, i) = v[a];
       const double s = geometry.storage(x[a], a);
-      const bool low = s < 1, high = s > geometry.cells[static_cast<unsigned>(a)] + 1.0;
+      const bool low = s<1, high = s> geometry.cells[static_cast<unsigned>(a)] + 1.0;
       outside = outside || low || high;
       if ((low || high) && !boundary.is_open(a, low ? 0 : 1))
         sides_[p] = static_cast<signed char>(1 + 2 * a + (low ? 0 : 1));

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
 #include "krater/step/rigid.hpp"
@@ -214,7 +214,8 @@ void RigidBody::finish(double dt) {
     const auto about = [&](int a, double share) {
       const double own = (rotation_ * axes_.col(a)).dot(angular_momentum_);
       if (!(principal_[a] > 0)) return;
-      turn_ = (turn_ * Eigen::AngleAxisd(share * dt * own / principal_[a], axes_.col(a))).normalized();
+      turn_ =
+          (turn_ * Eigen::AngleAxisd(share * dt * own / principal_[a], axes_.col(a))).normalized();
       rotation_ = turn_.toRotationMatrix();
     };
     about(0, 0.5), about(1, 0.5), about(2, 1.0), about(1, 0.5), about(0, 0.5);
@@ -229,8 +230,8 @@ void RigidBody::finish(double dt) {
 }
 
 std::vector<double> RigidBody::state() const {
-  std::vector<double> out{mass_, size_, turn_.w(), turn_.x(), turn_.y(), turn_.z(),
-                          moves_ ? 1.0 : 0.0, 0.0};
+  std::vector<double> out{mass_,     size_,     turn_.w(),          turn_.x(),
+                          turn_.y(), turn_.z(), moves_ ? 1.0 : 0.0, 0.0};
   for (const Vector3d& v : {start_centre_, principal_, angular_momentum_, received_, twist_.centre,
                             twist_.velocity, twist_.spin})
     out.insert(out.end(), v.data(), v.data() + 3);

@@ -40,9 +40,7 @@ struct RigidOptions {
 /// Velocity field of a rigid body.
 struct RigidTwist {
   Eigen::Vector3d centre, velocity, spin;
-  Eigen::Vector3d at(const Eigen::Vector3d& x) const {
-    return velocity + spin.cross(x - centre);
-  }
+  Eigen::Vector3d at(const Eigen::Vector3d& x) const { return velocity + spin.cross(x - centre); }
 };
 
 /// Impulse [N s] and its moment about the centre on a body; its work [J] if it is driven.
@@ -59,8 +57,8 @@ class RigidBody {
   const RigidOptions& options() const { return options_; }
   double mass() const { return mass_; }
   const RigidTwist& twist() const { return twist_; }
-  double kinetic() const;                                         ///< [J]
-  const Eigen::Vector3d& received() const { return received_; }   ///< impulse of contact [N s]
+  double kinetic() const;                                        ///< [J]
+  const Eigen::Vector3d& received() const { return received_; }  ///< impulse of contact [N s]
   /// Inverse of (M, I): change of (V, omega) by an impulse and a moment, as far as it is free.
   Eigen::Matrix<double, 6, 6> mobility() const;
 
@@ -75,8 +73,8 @@ class RigidBody {
   void set_load(const Eigen::Vector3d& force, const Eigen::Vector3d& moment);
   /// Contact has pushed; returns the change of kinetic energy [J].
   double take(const RigidImpulse& sum);
-  void rewind();          ///< to the start of the step
-  void finish(double dt); ///< move
+  void rewind();           ///< to the start of the step
+  void finish(double dt);  ///< move
   bool moves() const { return moves_; }
   Eigen::Vector3d position(const Eigen::Vector3d& start) const {
     return twist_.centre + rotation_ * (start - start_centre_);
@@ -134,15 +132,15 @@ class RigidBodies {
   void finish(const BlockGrid& grid, double dt);
   /// Positions and velocities of the points of one patch from the body's motion; sums, time-step
   /// limit, leavers. In parallel over patches, after finish().
-  void move(std::size_t p, Patch& patch, const GridGeometry& geometry,
-            const BoundarySet& boundary, const PointColumns& columns, unsigned char* leavers);
+  void move(std::size_t p, Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+            const PointColumns& columns, unsigned char* leavers);
   /// Throws NumericalError when a body has run into a closed side.
   void throw_collisions(const BlockGrid& grid) const;
 
  private:
   std::vector<RigidBody> bodies_;
-  std::vector<int> of_body_;               ///< index in bodies_, -1
-  std::vector<signed char> sides_;         ///< per patch: 1 + 2 axis + side that a point crossed
+  std::vector<int> of_body_;        ///< index in bodies_, -1
+  std::vector<signed char> sides_;  ///< per patch: 1 + 2 axis + side that a point crossed
   double time_ = 0;
 };
 
