@@ -152,6 +152,20 @@ void write_start(const Simulation& sim, const std::string& folder) {
   results.flush();
 }
 
+/// Which bodies may touch, and how.
+void print_contact(const Scene& scene) {
+  const ContactOptions& contact = scene.contact;
+  if (!contact.active) return;
+  fmt::print("contact: normals by {}; friction", contact.normal == ContactNormal::volume_gradient
+                                                     ? "volume gradient"
+                                                     : "logistic regression");
+  for (int a = 0; a < contact.fields; ++a)
+    for (int b = a + 1; b < contact.fields; ++b)
+      fmt::print(" {} - {}: {:g};", scene.bodies[static_cast<std::size_t>(a)].name,
+                 scene.bodies[static_cast<std::size_t>(b)].name, contact.friction_of(a, b));
+  fmt::print("\n");
+}
+
 }  // namespace
 
 void print_check(const RunOptions& options) {
@@ -169,6 +183,7 @@ void print_check(const RunOptions& options) {
     fastest = std::max(fastest, t.mass > 0 ? std::sqrt(2 * t.kinetic / t.mass) : 0);
     signal = std::max(signal, sim.bodies()[b]->initial_sound_speed());
   }
+  print_contact(scene);
   const double steps =
       scene.time.end * (fastest + 1.35 * signal) / (scene.time.cfl * scene.grid.cell);
   const double work = steps * static_cast<double>(sim.point_count());

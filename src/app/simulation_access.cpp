@@ -194,6 +194,15 @@ Checkpoint Simulation::save() const {
   return out;
 }
 
+void Simulation::restore_rigid(const std::vector<double>& state) {
+  if (state.size() != RigidBody::kStateSize * rigid_.all().size())
+    throw InputError(
+        "checkpoint: it belongs to a scene with other rigid bodies; restart with the scene and the "
+        "--set options it was written with");
+  for (std::size_t i = 0; i < rigid_.all().size(); ++i)
+    rigid_.all()[i].set_state(state.data() + i * RigidBody::kStateSize);
+}
+
 void Simulation::restore(const Checkpoint& checkpoint) {
   const auto find = [&](const std::string& name) -> const CheckpointBlob& {
     for (const CheckpointBlob& b : checkpoint.blobs)
@@ -214,15 +223,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
     throw InputError("checkpoint was written by another version of krater");
   std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
 
-  if (rigid_.any()) {
-    const auto& rigid = find("rigid").doubles;
-    if (rigid.size() != RigidBody::kStateSize * rigid_.all().size())
-      throw InputError(
-          "checkpoint: it belongs to a scene with other rigid bodies; restart with the scene and "
-          "the --set options it was written with");
-    for (std::size_t i = 0; i < rigid_.all().size(); ++i)
-      rigid_.all()[i].set_state(rigid.data() + i * RigidBody::kStateSize);
-  }
+  if (rigid_.any()) restore_rigid(find("rigid").doubles);
   const auto& patches = find("patches").integers;
   grid_.patches.clear();
   for (std::size_t i = 0; i + 4 < patches.size(); i += 5) {

@@ -157,6 +157,8 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
   add(row, "transfer_loss", "J", a.transfer_in + a.transfer_out);
   add(row, "time_centring", "J", a.time_centring);
   add(row, "wall_work", "J", a.wall_work);
+  add(row, "contact_work", "J", a.contact_work);
+  add(row, "friction_work", "J", a.friction_work);
   add(row, "external_work", "J", a.external_work);
   add(row, "removed_energy", "J", a.removed_energy);
   add(row, "energy_residual", "J", a.residual(t.kinetic, t.internal));
@@ -173,6 +175,7 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
   add(row, "removed_points", "1", a.removed_points);
   add(row, "removed_mass", "kg", a.removed_mass);
   add(row, "wall_columns", "1", a.wall_columns);
+  add(row, "contact_pairs", "1", a.contact_pairs);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
     add(row, sim.bodies()[b]->name() + ".kinetic_energy", "J", body.kinetic);

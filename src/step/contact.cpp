@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "krater/core/parallel.hpp"
+#include "krater/step/contact_regression.hpp"
 
 namespace krater {
 
@@ -16,8 +17,8 @@ namespace {
 // the unevenness of the lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kValley = 0.03;
 constexpr double kSteeper = 10;
-constexpr int kHalo = 2, kSweeps = 3, kMostContacts = 8;  // at a node
-constexpr int kMass = 3, kChange = 4, kVolume = 7;        // [v+, m, dv, V]
+constexpr int kHalo = 2, kSweeps = 3, kMostContacts = 64;  // at a node
+constexpr int kMass = 3, kChange = 4, kVolume = 7;         // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
@@ -89,9 +90,10 @@ void ContactSet::relink(const BlockGrid& grid) {
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
 }
 
-ContactWork ContactSet::apply(BlockGrid& grid, RigidBodies& rigid, bool projection) {
+ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                              RigidBodies& rigid, bool projection) {
   for_each(groups_.size(), [&](std::size_t g) {
-    find_contacts(grid, groups_[g], scratch_[static_cast<unsigned>(thread_index())], rigid);
+    find_contacts(grid, bodies, groups_[g], scratch_[static_cast<unsigned>(thread_index())], rigid);
   });
   if (rigid.any()) foretell(grid, rigid);
   for_each(groups_.size(),
@@ -249,8 +251,30 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   sum.nodes += 1;
 }
 
-void ContactSet::find_contacts(BlockGrid& grid, Group& group, Scratch& scratch,
-                               const RigidBodies& rigid) const {
+/// Normal from the points; on a plane of symmetry it keeps no component across.
+void ContactSet::refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                        const Group& group, Contact& contact) const {
+  const NodeBlock& home = grid.node_blocks[group.first];
+  std::array<double, 3> at{};
+  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
+    const auto i = static_cast<unsigned>(a);
+    at[i] = geometry_.min[i] + (home.key.i[i] * edge_ + rest % edge_ - 1) * geometry_.h;
+  }
+  const auto body = [&](int f) {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)].field;
+  };
+  std::array<double, 3> normal = contact.normal;
+  regress_normal(grid, bodies, body(contact.a), body(contact.b), at, normal);
+  double length = 0;
+  for (unsigned a = 0; a < 3; ++a) {
+    if (contact.normal[a] == 0) normal[a] = 0;
+    length += normal[a] * normal[a];
+  }
+  for (unsigned a = 0; a < 3 && length > 0; ++a) contact.normal[a] = normal[a] / std::sqrt(length);
+}
+
+void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                               Group& group, Scratch& scratch, const RigidBodies& rigid) const {
   group.contacts.clear();
   group.shares.clear();
   bool filled = false;
@@ -271,6 +295,8 @@ void ContactSet::find_contacts(BlockGrid& grid, Group& group, Scratch& scratch,
         filled = true;
         Contact contact{n, a, b, {}};
         if (!find_contact(scratch, group.fields, at, contact)) continue;
+        if (options_.normal == ContactNormal::logistic_regression)
+          refine(grid, bodies, group, contact);
         group.contacts.push_back(contact);
         ++count;
       }

@@ -80,7 +80,7 @@ double MpmStep::advance(double dt) {
 
 MpmStep::Constraints MpmStep::constrain(bool projection) {
   Constraints out;
-  if (contact_.active()) out.contact = contact_.apply(grid_, rigid_, projection);
+  if (contact_.active()) out.contact = contact_.apply(grid_, bodies_, rigid_, projection);
   lap(Phase::contact);
   out.walls = boundary_.constrain();
   boundary_.mirror();
@@ -258,40 +258,6 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
       block.sums.kinetic_after += 0.5 * node[3] * speed2;
     }
   }
-}
-
-// Returns the impulse of walls: they act on each term S+ S dv(l), which enters with a minus sign [N
-// s].
-std::array<double, 3> MpmStep::filter_velocity() {
-  // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
-  // (2017), FMPM form.
-  const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
-  const std::size_t total = grid_.node_blocks.size() * block_doubles;
-  filtered_.reserve(2 * total);
-  double* sum = filtered_.data();
-  double* increment = sum + total;
-  std::array<double, 3> impulse{};
-  if (total == 0) return impulse;
-  double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
-  std::copy(nodes, nodes + total, sum);
-  for (int order = 1; order < method_.xpic_order; ++order) {
-    std::copy(nodes, nodes + total, increment);
-    grid_to_particles(GatherPart::keep_only, 0);
-    particles_to_grid(plain_, velocity_from_kept_, 0);
-    double unused = 0;
-    momentum(unused, 0);
-    const BoundaryWork term = boundary_.constrain();
-    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a];
-    boundary_.mirror();
-    lap(Phase::boundary);
-    for (std::size_t i = 0; i < total; i += kNodeDoubles)
-      for (std::size_t a = i; a < i + 3; ++a) {
-        nodes[a] = increment[a] - nodes[a];
-        sum[a] += nodes[a];
-      }
-  }
-  std::copy(sum, sum + total, nodes);
-  return impulse;
 }
 
 // Dormant blocks. A patch whose nodes are all at rest is gathered once more; if that changed no bit

@@ -283,10 +283,10 @@ TEST_SUITE("verification") {
     // What is missing is the first contact, inelastic on the grid, and viscosity: both fall with h.
     double lost[2];
     for (const int k : {0, 1}) {
-      Run anvil = start_text(
-          strip(k == 0 ? 50 : 100,
-                slab("bar", "steel", 0, 1, "    velocity: [0, -10]\n") +
-                    slab("anvil", "heavy", -0.2, 0, "    rigid: {velocity: [0, 0]}\n")));
+      Run anvil =
+          start_text(strip(k == 0 ? 50 : 100,
+                           slab("bar", "steel", 0, 1, "    velocity: [0, -10]\n") +
+                               slab("anvil", "heavy", -0.2, 0, "    rigid: {velocity: [0, 0]}\n")));
       run_to(anvil, 2.6 / kSpeed);
       lost[k] = 1 - velocity_of(anvil, 0) / 10;
       CHECK(anvil.sim->audit().external_work == 0);

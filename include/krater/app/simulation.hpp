@@ -71,6 +71,7 @@ class Simulation {
  private:
   void place_points();
   void place_rigid_bodies();
+  void restore_rigid(const std::vector<double>& state);
   void load_rigid_bodies();  ///< body force on them
   void choose_first_step();
   void apply_body_force();

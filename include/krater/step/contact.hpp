@@ -14,7 +14,8 @@
 /// phi_B); normal and gap are judged there, for in the tail of a body its gradient means nothing.
 /// Normal: n ~ |grad phi_B|^20 grad phi_B - |grad phi_A|^20 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
-/// aside; equal ones are averaged. Touching: a gap is a valley of the total filling along the grid
+/// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
+/// (step/contact_regression.hpp). Touching: a gap is a valley of the total filling along the grid
 /// axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) + phi(j+1))/2. The volume
 /// criterion of numerics A10, sum phi > 1 - tol, is this one where bodies are wide; at the edge of
 /// a punch the filling falls off along the contact, and only the valley tells a gap from an edge.
@@ -31,6 +32,7 @@
 #include <vector>
 
 #include "krater/step/boundary.hpp"
+#include "krater/step/kernels.hpp"
 #include "krater/step/rigid.hpp"
 
 namespace krater {
@@ -57,8 +59,9 @@ class ContactSet {
   /// Find the blocks that fields share; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
   /// Change v+ and dv of [v+, m, dv, V] where fields touch, and the velocities of free rigid
-  /// bodies unless the nodes are only those of a projection.
-  ContactWork apply(BlockGrid& grid, RigidBodies& rigid, bool projection = false);
+  /// bodies unless the nodes are only those of a projection. Field k is body k.
+  ContactWork apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, RigidBodies& rigid,
+                    bool projection = false);
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -102,8 +105,10 @@ class ContactSet {
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
-  void find_contacts(BlockGrid& grid, Group& group, Scratch& scratch,
-                     const RigidBodies& rigid) const;
+  void find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
+                     Scratch& scratch, const RigidBodies& rigid) const;
+  void refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, const Group& group,
+              Contact& contact) const;
   ContactWork exchange_group(BlockGrid& grid, Group& group, const RigidBodies& rigid) const;
   void hand_over(RigidBodies& rigid, ContactWork& sum) const;
   void foretell(const BlockGrid& grid, RigidBodies& rigid);
