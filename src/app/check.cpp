@@ -57,6 +57,9 @@ void print_body(const Simulation& sim, const Body& body, int index) {
   const Totals t = sim.totals(index);
   fmt::print("body {}: material {}, {:.0f} points, mass {:.6g} kg\n", body.name(),
              body.material().name, t.count, t.mass);
+  if (const RigidBody* rigid = sim.rigid().find(index))
+    fmt::print("  rigid, {}:{}\n", rigid->options().free ? "free" : "prescribed motion",
+               describe_motion(sim.scene().frame, rigid->options()));
   print_shape(sim.scene(), body);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
@@ -93,9 +96,18 @@ double closing_speed(const Simulation& sim, double fastest) {
   return closing;
 }
 
+/// Some body of this material can deform.
+bool deforms(const Scene& scene, const MaterialOptions& material) {
+  for (const BodyOptions& body : scene.bodies)
+    if (&scene.materials[static_cast<std::size_t>(body.material)] == &material && !body.rigid())
+      return true;
+  return false;
+}
+
 /// Impact regime by velocity and stress (BUSH, after Zukas): what a scene of this speed needs.
 void print_advice(const Scene& scene, double fastest, double closing) {
   for (const MaterialOptions& m : scene.materials) {
+    if (!deforms(scene, m)) continue;
     if (fastest > 500 && m.eos && m.eos->name == "linear")
       fmt::print(
           "advice: {}: {:.0f} m/s with a linear equation of state; shocks need "

@@ -191,6 +191,10 @@ std::vector<Quantity> history_row(const Simulation& sim) {
     for (int k = 0; k < dimension(frame); ++k)
       add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)},
           "m/s", body.mass > 0 ? body.momentum[static_cast<std::size_t>(k)] / body.mass : 0.0);
+    const RigidBody* rigid = sim.rigid().find(static_cast<int>(b));
+    for (int k = 0; rigid && k < dimension(frame); ++k)
+      add(row, sim.bodies()[b]->name() + ".contact_impulse_" + std::string{axis_name(frame, k)},
+          "N s", rigid->received()[k]);
   }
   return row;
 }
