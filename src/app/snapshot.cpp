@@ -5,6 +5,8 @@
 #include <cstring>
 #include <set>
 
+#include "krater/app/measurements.hpp"
+
 namespace krater {
 
 namespace {
@@ -135,12 +137,19 @@ OutputFrame make_frame(const Simulation& sim, int number) {
       if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
         bf.fields.push_back(column_array(sim, c, points));
     add_stress(sim, body, points, bf);
+    if (asked_for(sim.scene(), kFragmentField))
+      bf.fields.push_back({kFragmentField,
+                           "1",
+                           "connected piece of its body, 0 the heaviest",
+                           1,
+                           {},
+                           fragment_numbers(sim, static_cast<int>(b))});
     out.bodies.push_back(std::move(bf));
   }
   return out;
 }
 
-std::vector<Quantity> history_row(const Simulation& sim, const std::vector<double>& measures) {
+std::vector<Quantity> history_row(const Simulation& sim) {
   const Audit& a = sim.audit();
   const Totals t = sim.totals();
   std::vector<Quantity> row;
@@ -180,8 +189,6 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
       add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)},
           "m/s", body.mass > 0 ? body.momentum[static_cast<std::size_t>(k)] / body.mass : 0.0);
   }
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    add(row, sim.scene().measures[i].name, measure_unit(sim.scene().measures[i]), measures[i]);
   return row;
 }
 

@@ -14,6 +14,7 @@
 #include "krater/geometry/lattice.hpp"
 #include "krater/geometry/solid.hpp"
 #include "krater/materials/stage.hpp"
+#include "krater/scene/measures.hpp"
 #include "krater/step/options.hpp"
 
 namespace krater {
@@ -79,19 +80,6 @@ struct BodyOptions {
   bool thin_allowed = false;           ///< may be one cell thick or less
   PointOptions points;
   std::shared_ptr<const FieldFunction> velocity;  ///< initial velocity; null: at rest
-};
-
-enum class MeasureKind { extent, max, min, diameter, mean_velocity, mean, maximum };
-struct MeasureOptions {
-  std::string name, where;
-  MeasureKind kind = MeasureKind::extent;
-  int body = -1;
-  int axis = -1;             ///< extent, max, min, mean_velocity: grid axis
-  double at = 0;             ///< diameter: position on the last axis [m] ...
-  bool at_from_end = false;  ///< ... counted from the body's lower end at the time of measuring
-  std::string field;         ///< mean, maximum: field name
-  std::optional<double> reference;  ///< SI
-  std::string reference_source;
 };
 
 struct OutputOptions {
