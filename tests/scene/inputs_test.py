@@ -7,10 +7,14 @@ from scene_support import ROOT, Folder, check, finish, krater, results_errors, r
 # Frames a scene supports; in the others it must be refused, and say why. 3d runs take a coarser cell.
 SCENES = {
     "bar_pulled_apart": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "1 mm"},
+    "ccf_hypervelocity": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "1 mm"},
+    "ccf_plugging": {"frames": ("axisymmetric", "3d"), "end": "1 us", "coarse": "4 mm"},
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
+    "hiermaier_al": {"frames": ("axisymmetric", "3d"), "end": "0.1 us", "coarse": "1 mm"},
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
+    "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
     "taylor_copper": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "two_discs": {"frames": ("plane_strain",), "end": "0.1", "coarse": None},
 }
