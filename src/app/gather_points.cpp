@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "krater/app/measurements.hpp"
 #include "krater/app/pieces.hpp"
@@ -17,9 +18,8 @@ struct WantedScalar {
 
 bool carried(const Body& body, const std::string& field) {
   const std::vector<Column>& columns = body.layout().columns();
-  return std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
-    return c.components == 1 && field == c.field->name;
-  });
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const Column& c) { return c.components == 1 && field == c.field->name; });
 }
 
 int slot_of(const Body& body, const std::string& field) {
@@ -76,7 +76,7 @@ void gather_patch(const Simulation& sim, std::size_t patch, const std::vector<Wa
 
 }  // namespace
 
-MeasureContext measure_context(const Simulation& sim) {
+MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies) {
   const Scene& scene = sim.scene();
   MeasureContext c;
   c.frame = scene.frame;
@@ -86,6 +86,14 @@ MeasureContext measure_context(const Simulation& sim) {
     c.max[static_cast<std::size_t>(a)] = sim.geometry().upper(a);
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t s = 0; s < 2; ++s) c.boundary[a][s] = scene.grid.boundary[a][s].kind;
+  // The widest spacing: a surface is told to that.
+  c.points_per_direction = std::numeric_limits<int>::max();
+  for (const int b : bodies) {
+    const auto& per = scene.bodies[static_cast<std::size_t>(b)].points.per_direction;
+    c.points_per_direction =
+        std::min(c.points_per_direction,
+                 *std::min_element(per.begin(), per.begin() + sim.geometry().dimension));
+  }
   return c;
 }
 
@@ -106,7 +114,7 @@ BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
 
 std::vector<double> fragment_numbers(const Simulation& sim, int body) {
   const BodyPoints points = gather_points(sim, {body}, {});
-  const Pieces pieces = connected_pieces(points, measure_context(sim));
+  const Pieces pieces = connected_pieces(points, measure_context(sim, {body}));
   std::vector<std::size_t> first(sim.grid().patches.size());  // of every patch among the points
   std::size_t count = 0;
   for (std::size_t p = 0; p < first.size(); ++p) {
@@ -116,8 +124,7 @@ std::vector<double> fragment_numbers(const Simulation& sim, int body) {
   }
   std::vector<double> out;
   for (const auto& [patch, i] : sim.points_by_id(body))
-    out.push_back(
-        pieces.of[first[static_cast<std::size_t>(patch)] + static_cast<std::size_t>(i)]);
+    out.push_back(pieces.of[first[static_cast<std::size_t>(patch)] + static_cast<std::size_t>(i)]);
   return out;
 }
 

@@ -36,9 +36,14 @@ double section(double volume, double r, double share, double a) {
 
 double volume(const BodyPoints& body, std::size_t p) { return body.mass[p] / body.density[p]; }
 
-MeasuringAxis body_axis(const BodyPoints& body, const MeasureContext& context, int d) {
+/// Over the points, and up to symmetry planes where `to_planes`.
+MeasuringAxis body_axis(const BodyPoints& body, const MeasureContext& context, int d,
+                        bool to_planes = false) {
+  std::array<double, 2> occupied = range(body, d);
+  if (to_planes && is_symmetry(context, d, 0)) occupied[0] = context.min[index(d)];
+  if (to_planes && is_symmetry(context, d, 1)) occupied[1] = context.max[index(d)];
   return measuring_axis(node_spacing(context), {context.min[index(d)], context.max[index(d)]},
-                        {is_closed(context, d, 0), is_closed(context, d, 1)}, range(body, d));
+                        {is_closed(context, d, 0), is_closed(context, d, 1)}, occupied);
 }
 
 /// A point of the band about z0: coordinate across the axis, A_p K / b, distance from z0 in a.
@@ -227,9 +232,11 @@ bool is_symmetry(const MeasureContext& context, int axis, int side) {
   return context.boundary[index(axis)][index(side)] == BoundaryKind::symmetry;
 }
 
-VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context) {
+VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context,
+                               bool to_planes) {
   std::array<MeasuringAxis, 3> axes;
-  for (int d = 0; d < dimension(context.frame); ++d) axes[index(d)] = body_axis(body, context, d);
+  for (int d = 0; d < dimension(context.frame); ++d)
+    axes[index(d)] = body_axis(body, context, d, to_planes);
   std::vector<double> sections(body.count());
   for (std::size_t p = 0; p < body.count(); ++p) {
     const double V = volume(body, p);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/measurements.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -39,23 +38,13 @@ std::vector<std::string> fields_of(const MeasureOptions& measure) {
 /// Selected points, gathered once for all measures of one selection.
 class Selections {
  public:
-  explicit Selections(const Simulation& sim) : sim_{sim}, context_{measure_context(sim)} {
+  explicit Selections(const Simulation& sim) : sim_{sim} {
     for (const MeasureOptions& m : sim.scene().measures)
       for (const std::string& field : fields_of(m)) fields_[m.selection.bodies].push_back(field);
   }
 
-  /// The widest spacing of the selected bodies: a surface is told to that.
   MeasureContext context(const MeasureSelection& selection) const {
-    MeasureContext context = context_;
-    const std::vector<BodyOptions>& bodies = sim_.scene().bodies;
-    context.points_per_direction = std::numeric_limits<int>::max();
-    for (const int b : selection.bodies) {
-      const auto& per = bodies[static_cast<std::size_t>(b)].points.per_direction;
-      context.points_per_direction =
-          std::min(context.points_per_direction,
-                   *std::min_element(per.begin(), per.begin() + sim_.geometry().dimension));
-    }
-    return context;
+    return measure_context(sim_, selection.bodies);
   }
 
   const BodyPoints& points(const MeasureSelection& selection) {
@@ -67,7 +56,7 @@ class Selections {
     MeasureSelection whole;
     whole.bodies = selection.bodies;
     if (selection == whole) return keep(selection, of_bodies(selection.bodies));
-    return keep(selection, select(selection, points(whole), context_));
+    return keep(selection, select(selection, points(whole), context(selection)));
   }
 
  private:
@@ -77,7 +66,6 @@ class Selections {
   }
 
   const Simulation& sim_;
-  MeasureContext context_;
   std::map<std::vector<int>, std::vector<std::string>> fields_;
   std::deque<std::pair<MeasureSelection, BodyPoints>> selected_;  // references stay valid
 };
@@ -96,9 +84,10 @@ Json vector_json(Frame frame, const Triple& v) {
 }
 
 Json piece_json(const Piece& piece, const Scene& scene) {
-  const double spacing = scene.grid.cell / scene.method.points_per_direction;
+  const auto& per = scene.bodies[static_cast<std::size_t>(piece.body)].points.per_direction;
   Triple size{};
-  for (std::size_t a = 0; a < 3; ++a) size[a] = piece.high[a] - piece.low[a] + spacing;
+  for (std::size_t a = 0; a < 3; ++a)
+    size[a] = piece.high[a] - piece.low[a] + scene.grid.cell / per[a];
   Json j;
   j["body"] = Json::of(scene.bodies[static_cast<std::size_t>(piece.body)].name);
   j["number"] = Json::of(piece.number);
@@ -226,7 +215,7 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
     MeasureSelection with_dust = m.selection;
     with_dust.least_points = 0;
     fragments[m.name] =
-        fragments_json(m, selections.points(with_dust), selections.context(with_dust), scene);
+        fragments_json(m, selections.points(with_dust), selections.context(m.selection), scene);
   }
   summary["measures"] = std::move(measures);
   if (!fragments.items.empty()) summary["fragments"] = std::move(fragments);

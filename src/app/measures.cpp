@@ -127,13 +127,14 @@ struct Evaluator {
   Evaluate evaluate;
 };
 
-#define KRATER_MEASURE(kind, sums, value)                                                               \
-  {                                                                                               \
-    MeasureKind::kind, sums, [](const MeasureOptions& m, const BodyPoints& b, const MeasureContext& c,  \
-                          const MeasureStart& s) -> double {                                      \
-      (void)m, (void)b, (void)c, (void)s;                                                         \
-      return value;                                                                               \
-    }                                                                                             \
+#define KRATER_MEASURE(kind, sums, value)                                         \
+  {                                                                               \
+    MeasureKind::kind, sums,                                                      \
+        [](const MeasureOptions& m, const BodyPoints& b, const MeasureContext& c, \
+           const MeasureStart& s) -> double {                                     \
+          (void)m, (void)b, (void)c, (void)s;                                     \
+          return value;                                                           \
+        }                                                                         \
   }
 
 /// In the order of the enum (checked by the tests).
@@ -200,10 +201,9 @@ bool inside(const MeasureSelection& selection, const Triple& x, int dimension) {
 BodyPoints select(const MeasureSelection& selection, const BodyPoints& points,
                   const MeasureContext& context) {
   const bool everywhere = selection.region == MeasureSelection{}.region;
-  const BodyPoints placed =
-      everywhere ? points : filtered(points, [&](std::size_t p) {
-        return inside(selection, points.x[p], dimension(context.frame));
-      });
+  const BodyPoints placed = everywhere ? points : filtered(points, [&](std::size_t p) {
+    return inside(selection, points.x[p], dimension(context.frame));
+  });
   if (!selection.largest_piece && selection.least_points <= 1) return placed;
   const Pieces pieces = connected_pieces(placed, context);
   return filtered(placed, [&](std::size_t p) {

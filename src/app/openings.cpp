@@ -99,8 +99,8 @@ double area_diameter(const Lines& lines, std::vector<double> f, const std::vecto
   double squares = 0;
   for (int i = 0; i + 1 < lines.nx; ++i)
     for (int j = 0; j + 1 < lines.ny; ++j) {
-      const double a = f[lines.at(i, j)], b = f[lines.at(i + 1, j)],
-                   c = f[lines.at(i + 1, j + 1)], d = f[lines.at(i, j + 1)];
+      const double a = f[lines.at(i, j)], b = f[lines.at(i + 1, j)], c = f[lines.at(i + 1, j + 1)],
+                   d = f[lines.at(i, j + 1)];
       // Both diagonals, so that no direction is preferred.
       squares += 0.25 * (positive_part({a, b, c}) + positive_part({a, c, d}) +
                          positive_part({a, b, d}) + positive_part({b, c, d}));
@@ -120,29 +120,40 @@ double area_diameter(const Lines& lines, std::vector<double> f, const std::vecto
 }
 
 /// Depth of every line below the face [m]: inf where the body is perforated, -inf outside of it.
-struct Profile {
-  Lines lines;
-  std::vector<double> depth;
-};
-
-Profile depth_profile(const BodyPoints& body, const MeasureContext& context, int side,
-                      double face) {
-  const VolumeFraction fraction = volume_fraction(body, context);
-  const VolumeFraction::Surface surface =
-      fraction.surface(dimension(context.frame) - 1, side);
-  Profile profile{lines_of(fraction, context), {}};
-  const Lines& lines = profile.lines;
+std::vector<double> depths(const VolumeFraction& fraction, const Lines& lines,
+                           const MeasureContext& context, int side, double face) {
+  const VolumeFraction::Surface surface = fraction.surface(dimension(context.frame) - 1, side);
   std::vector<bool> empty(lines.count());
   for (std::size_t line = 0; line < lines.count(); ++line) empty[line] = !surface.edges[line];
   const std::vector<bool> out = outside(lines, empty);
+  std::vector<double> result;
   for (std::size_t line = 0; line < lines.count(); ++line) {
     const std::optional<LineEdge>& edge = surface.edges[line];
     bool at_side = out[line];
-    if (edge && edge->fill < kFilled) lines.beside(line, [&](std::size_t n) { at_side |= out[n]; });
+    if (edge && edge->fill < kFilled)
+      lines.beside(line, [&](std::size_t n) { at_side = at_side || out[n]; });
     const double depth = edge ? (side == 1 ? face - edge->place : edge->place - face) : inf;
-    profile.depth.push_back(at_side ? -inf : depth);
+    result.push_back(at_side ? -inf : depth);
   }
-  return profile;
+  return result;
+}
+
+/// phi of every line at the height z, linear between nodes.
+std::vector<double> fractions_at(const VolumeFraction& fraction, const Lines& lines,
+                                 const MeasureContext& context, double z) {
+  const bool space = context.frame == Frame::cartesian_3d;
+  const MeasuringAxis& axis = fraction.axis(space ? 2 : 1);
+  const double u = std::clamp((z - axis.origin) / axis.spacing, 0.0, axis.count - 1.0);
+  const int below = std::min(static_cast<int>(u), axis.count - 2);
+  const double share = u - below;
+  std::vector<double> result;
+  for (int i = 0; i < lines.nx; ++i)
+    for (int j = 0; j < lines.ny; ++j) {
+      const double low = space ? fraction.at(i, j, below) : fraction.at(i, below);
+      const double high = space ? fraction.at(i, j, below + 1) : fraction.at(i, below + 1);
+      result.push_back((1 - share) * low + share * high);
+    }
+  return result;
 }
 
 /// Where f vanishes between line i and the next one outwards (step +1 or -1), from i.
@@ -169,24 +180,31 @@ double width(const Lines& lines, const std::vector<double>& f, int deepest,
 }  // namespace
 
 double crater_depth(const BodyPoints& body, const MeasureContext& context, int side, double face) {
-  const Profile profile = depth_profile(body, context, side, face);
-  const double depth = *std::max_element(profile.depth.begin(), profile.depth.end());
-  return std::isfinite(depth) ? depth : std::numeric_limits<double>::quiet_NaN();
+  const VolumeFraction fraction = volume_fraction(body, context, true);
+  const std::vector<double> depth =
+      depths(fraction, lines_of(fraction, context), context, side, face);
+  const double deepest = *std::max_element(depth.begin(), depth.end());
+  return std::isfinite(deepest) ? deepest : std::numeric_limits<double>::quiet_NaN();
 }
 
 double crater_diameter(const BodyPoints& body, const MeasureContext& context, int side, double face,
                        double level) {
-  const auto [lines, depth] = depth_profile(body, context, side, face);
+  const VolumeFraction fraction = volume_fraction(body, context, true);
+  const Lines lines = lines_of(fraction, context);
+  const std::vector<double> depth = depths(fraction, lines, context, side, face);
   const auto deepest = std::max_element(depth.begin(), depth.end());
   if (!(*deepest > level)) return 0;
-  const double a = node_spacing(context);
-  std::vector<double> f;
+  std::vector<double> f =
+      fractions_at(fraction, lines, context, side == 1 ? face - level : face + level);
+  // Near the face no line is full: half of what the fullest holds there.
+  const double half = *std::max_element(f.begin(), f.end()) / 2;
   std::vector<bool> open;
-  for (const double d : depth) {
-    f.push_back(std::clamp(d - level, -a, a));
-    open.push_back(d > level);
+  for (std::size_t line = 0; line < f.size(); ++line) {
+    f[line] = half - f[line];
+    open.push_back(f[line] > 0 && depth[line] > -inf);
   }
   const auto seed = static_cast<std::size_t>(deepest - depth.begin());
+  if (!open[seed]) return 0;
   if (lines.ny == 1) return width(lines, f, static_cast<int>(seed), context);
   return area_diameter(lines, f, flood(lines, open, {seed}), context);
 }
@@ -194,7 +212,7 @@ double crater_diameter(const BodyPoints& body, const MeasureContext& context, in
 double hole_diameter(const BodyPoints& body, const MeasureContext& context) {
   if (context.frame == Frame::axisymmetric)
     return 2 * std::max(0.0, outermost(body, context, 0, 0));
-  const VolumeFraction fraction = volume_fraction(body, context);
+  const VolumeFraction fraction = volume_fraction(body, context, true);
   const Lines lines = lines_of(fraction, context);
   std::vector<double> f;
   std::vector<bool> open;

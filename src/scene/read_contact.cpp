@@ -58,6 +58,11 @@ Node read_contact(const Node& node, Reading& reading) {
   Block block{&node, node.path, node, reading.problems};
   contact.active = true;
   contact.fields = static_cast<int>(reading.scene.bodies.size());
+  contact.normal =
+      block.choice<ContactNormal>("normal",
+                                  {{"volume_gradient", ContactNormal::volume_gradient},
+                                   {"logistic_regression", ContactNormal::logistic_regression}},
+                                  contact.normal);
   const double friction = block.number(kFriction);
   contact.friction.assign(static_cast<std::size_t>(contact.fields * contact.fields), friction);
   std::vector<Node> pairs;

@@ -166,11 +166,26 @@ void read_region(Block& parent, MeasureSelection& selection, Reading& reading) {
       if (std::isfinite(mine)) block.fail("r and x are the same axis in this frame; give one");
       mine = *value;
       block.record(side_name(frame, axis, side), number_node(*value));
-      if (!(bounds[0] < bounds[1])) block.fail("the region is empty: _max must lie beyond _min");
+      if (!(bounds[0] < bounds[1]))
+        block.fail("the region is empty: " + side_name(frame, axis, 1) + " must lie beyond " +
+                   side_name(frame, axis, 0));
     }
   }
-  if (selection.region == MeasureSelection{}.region) block.fail("give at least one bound, z_min, ...");
+  if (selection.region == MeasureSelection{}.region)
+    block.fail("give at least one bound, z_min, ...");
   parent.record("region", block.finish());
+}
+
+/// Points of a piece two cells across, of the bodies the coarsest: less is not resolved.
+int points_of_two_cells(const MeasureSelection& selection, const Scene& scene) {
+  int least = 0;
+  for (const int b : selection.bodies) {
+    int points = 1;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension(scene.frame)); ++d)
+      points *= 2 * scene.bodies[static_cast<std::size_t>(b)].points.per_direction[d];
+    least = least == 0 ? points : std::min(least, points);
+  }
+  return least;
 }
 
 void read_selection(Block& block, MeasureOptions& measure, Reading& reading) {
@@ -179,12 +194,8 @@ void read_selection(Block& block, MeasureOptions& measure, Reading& reading) {
   if (!kind.selects) return;
   selection.largest_piece =
       block.choice<bool>("piece", {{"all", false}, {"largest", true}}, kind.whole);
-  int fallback = 0;
-  if (measure.kind == MeasureKind::fragments) {  // two cells across: less is not resolved
-    fallback = 1;
-    for (int d = 0; d < dimension(reading.scene.frame); ++d)
-      fallback *= 2 * reading.scene.method.points_per_direction;
-  }
+  const bool counts = measure.kind == MeasureKind::fragments;
+  const int fallback = counts ? points_of_two_cells(selection, reading.scene) : 0;
   selection.least_points = block.integer("least_points", 0, 1'000'000'000, fallback);
   read_region(block, selection, reading);
 }
@@ -216,8 +227,8 @@ void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
   if (takes(kind, "face")) read_face(block, measure, false, reading);
   if (takes(kind, "z_face")) read_face(block, measure, true, reading);
   if (takes(kind, "level"))
-    measure.level = block.number({"level", "m", Range::positive, 0.5 * reading.scene.grid.cell,
-                                  "depth below the original face"});
+    measure.level = block.number(
+        {"level", "m", Range::positive, reading.scene.grid.cell, "depth below the original face"});
   if (takes(kind, "mass_share")) {
     measure.mass_share = block.number(
         {"mass_share", "1", Range::fraction, 1.0, "share of the mass that the extent holds"});
@@ -246,7 +257,8 @@ Node read_measure(const Node& node, Reading& reading) {
   for (const MeasureKindInfo& known : measure_kinds())
     if (kind == known.name) measure.kind = known.kind;
   if (info(measure.kind).round && reading.scene.frame == Frame::plane_strain)
-    block.fail(kind + " is not defined in plane_strain, where a hole is a slot; use axisymmetric or 3d");
+    block.fail(kind +
+               " is not defined in plane_strain, where a hole is a slot; use axisymmetric or 3d");
   measure.selection.bodies = read_bodies(block, reading);
   read_keys(block, measure, reading);
   read_selection(block, measure, reading);

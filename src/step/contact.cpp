@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "krater/core/parallel.hpp"
+#include "krater/step/contact_regression.hpp"
 
 namespace krater {
 
@@ -16,7 +17,7 @@ namespace {
 // the unevenness of the lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kValley = 0.03;
 constexpr double kSteeper = 10;
-constexpr int kHalo = 2, kSweeps = 3;
+constexpr int kHalo = 2, kSweeps = 3, kMostPairs = 8;
 constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
@@ -89,9 +90,10 @@ void ContactSet::relink(const BlockGrid& grid) {
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
 }
 
-ContactWork ContactSet::apply(BlockGrid& grid) {
+ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
   for_each(groups_.size(), [&](std::size_t g) {
-    results_[g] = touch_group(grid, groups_[g], scratch_[static_cast<unsigned>(thread_index())]);
+    results_[g] =
+        touch_group(grid, bodies, groups_[g], scratch_[static_cast<unsigned>(thread_index())]);
   });
   ContactWork sum;
   for (const ContactWork& r : results_) sum.add(r);
@@ -245,32 +247,70 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   sum.nodes += 1;
 }
 
-ContactWork ContactSet::touch_group(BlockGrid& grid, Group& group, Scratch& scratch) const {
+/// Normal from the points; on a plane of symmetry it keeps no component across.
+void ContactSet::refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                        const Group& group, int n, Contact& contact) const {
+  const NodeBlock& home = grid.node_blocks[group.first];
+  std::array<double, 3> at{};
+  for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_) {
+    const auto i = static_cast<unsigned>(a);
+    at[i] = geometry_.min[i] + (home.key.i[i] * edge_ + rest % edge_ - 1) * geometry_.h;
+  }
+  const auto body = [&](int f) {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)].field;
+  };
+  std::array<double, 3> normal = contact.normal;
+  regress_normal(grid, bodies, body(contact.a), body(contact.b), at, normal);
+  double length = 0;
+  for (unsigned a = 0; a < 3; ++a) {
+    if (contact.normal[a] == 0) normal[a] = 0;
+    length += normal[a] * normal[a];
+  }
+  for (unsigned a = 0; a < 3 && length > 0; ++a) contact.normal[a] = normal[a] / std::sqrt(length);
+}
+
+/// Pairs that touch at node n of the block; returns their number.
+int ContactSet::find_contacts(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                              Group& group, Scratch& scratch, int n, Contact* contacts) const {
+  const auto mass = [&](int f) {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)]
+        .nodes[kNodeDoubles * n + kMass];
+  };
+  int count = 0, at = 0;
+  for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
+    at += (rest % edge_ + kHalo) * stride_[a];
+  for (int a = 0; a < group.fields; ++a)
+    for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
+      if (!(mass(b) > 0) || count == kMostPairs) continue;
+      if (group.sources.empty()) link(grid, group);
+      if (!scratch.filled) fill(grid, group, scratch);
+      scratch.filled = true;
+      contacts[count] = {a, b, {}};
+      if (!find_contact(scratch, group.fields, at, contacts[count])) continue;
+      if (options_.normal == ContactNormal::logistic_regression)
+        refine(grid, bodies, group, n, contacts[count]);
+      ++count;
+    }
+  return count;
+}
+
+ContactWork ContactSet::touch_group(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                                    Group& group, Scratch& scratch) const {
   ContactWork sum;
-  bool filled = false;
+  scratch.filled = false;
   const auto block = [&](int f) -> NodeBlock& {
     return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
   };
-  Contact contacts[8];
+  Contact contacts[kMostPairs];
   for (int n = 0; n < kBlockNodes; ++n) {
-    const auto node = [&](int f) { return block(f).nodes + kNodeDoubles * n; };
-    int count = 0, at = 0;
-    for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
-      at += (rest % edge_ + kHalo) * stride_[a];
-    for (int a = 0; a < group.fields; ++a)
-      for (int b = a + 1; b < group.fields && node(a)[kMass] > 0; ++b) {
-        if (!(node(b)[kMass] > 0) || count == 8) continue;
-        if (group.sources.empty()) link(grid, group);
-        if (!filled) fill(grid, group, scratch);
-        filled = true;
-        contacts[count] = {a, b, {}};
-        if (find_contact(scratch, group.fields, at, contacts[count])) ++count;
-      }
+    const int count = find_contacts(grid, bodies, group, scratch, n, contacts);
     const double before = sum.nodes;
     for (int sweep = 0; sweep < (count > 1 ? kSweeps : 1); ++sweep)
-      for (int c = 0; c < count; ++c)
-        exchange(node(contacts[c].a), node(contacts[c].b), contacts[c],
-                 options_.friction_of(block(contacts[c].a).field, block(contacts[c].b).field), sum);
+      for (int c = 0; c < count; ++c) {
+        NodeBlock &a = block(contacts[c].a), &b = block(contacts[c].b);
+        exchange(a.nodes + kNodeDoubles * n, b.nodes + kNodeDoubles * n, contacts[c],
+                 options_.friction_of(a.field, b.field), sum);
+      }
     if (sum.nodes == before) continue;
     for (int c = 0; c < count; ++c)
       for (const int f : {contacts[c].a, contacts[c].b}) block(f).still = block(f).inert = false;

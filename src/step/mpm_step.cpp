@@ -79,7 +79,7 @@ double MpmStep::advance(double dt) {
 
 MpmStep::Constraints MpmStep::constrain() {
   Constraints out;
-  if (contact_.active()) out.contact = contact_.apply(grid_);
+  if (contact_.active()) out.contact = contact_.apply(grid_, bodies_);
   lap(Phase::contact);
   out.walls = boundary_.constrain();
   boundary_.mirror();

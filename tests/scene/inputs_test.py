@@ -7,11 +7,12 @@ from scene_support import ROOT, Folder, check, finish, krater, results_errors, r
 # Frames a scene supports; in the others it must be refused, and say why. 3d runs take a coarser cell.
 SCENES = {
     "bar_pulled_apart": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "1 mm"},
-    "ccf_hypervelocity": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "1 mm"},
-    "ccf_plugging": {"frames": ("axisymmetric", "3d"), "end": "1 us", "coarse": "4 mm"},
+    # Their 3d runs are for tools/validate: full cylinders of millions of points.
+    "ccf_hypervelocity": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "ccf_plugging": {"frames": ("axisymmetric",), "end": "5 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "hiermaier_al": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
-    "hiermaier_al": {"frames": ("axisymmetric", "3d"), "end": "0.1 us", "coarse": "1 mm"},
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
@@ -47,6 +48,8 @@ with Folder():
         own = krater("check", path)
         check(own.returncode == 0 and "estimate:" in own.stdout and not own.stderr, f"check {path.name}")
         for frame in FRAMES:
+            if frame in SCENES[path.stem].get("too_large", ()):
+                continue
             if frame in SCENES[path.stem]["frames"]:
                 done = krater("check", path, "--set", f"frame={frame}")
                 check(done.returncode == 0, f"check {path.name} in {frame}", done.stderr)

@@ -13,7 +13,9 @@ double node_spacing(const MeasureContext& context);
 bool is_closed(const MeasureContext& context, int axis, int side);
 bool is_symmetry(const MeasureContext& context, int axis, int side);
 
-VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context);
+/// On the nodes about the body; `to_planes`: also on those between it and the symmetry planes.
+VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context,
+                               bool to_planes = false);
 /// Closed sides that are no symmetry.
 VolumeFraction::Walls walls_of(const MeasureContext& context);
 

@@ -14,8 +14,8 @@
 
 namespace krater {
 
-/// Domain, boundaries and point spacing of a simulation, as measures see them.
-MeasureContext measure_context(const Simulation& sim);
+/// Domain, boundaries and point spacing of bodies, as measures see them.
+MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies);
 
 /// The points of bodies, body after body, patch after patch. `fields`: scalars wanted; those that
 /// not all bodies carry are left out, but for "failed" (0 where a body cannot fail).

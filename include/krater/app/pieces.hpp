@@ -21,9 +21,9 @@ struct Piece {
   int body = 0;    ///< index in the scene
   int number = 0;  ///< in its body: 0 the heaviest
   std::size_t points = 0;
-  double mass = 0;                ///< [kg], as field::Mass
-  Triple velocity{}, centre{};    ///< mean by mass [m/s], [m]
-  Triple low{}, high{};           ///< range of the points' positions [m]
+  double mass = 0;              ///< [kg], as field::Mass
+  Triple velocity{}, centre{};  ///< mean by mass [m/s], [m]
+  Triple low{}, high{};         ///< range of the points' positions [m]
 };
 
 struct Pieces {

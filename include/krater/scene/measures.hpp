@@ -44,9 +44,9 @@ struct MeasureKindInfo {
   const char* unit;  ///< SI; "": that of the field
   const char* keys;  ///< required or special keys beside those of every measure, space-separated
   bool selects;      ///< takes `piece`, `least_points`, `region`
-  bool whole;        ///< of the largest piece unless told otherwise: splinters would hide the answer
-  bool round;        ///< needs a body of revolution or 3d: impossible in plane strain
-  bool in_history;   ///< cheap enough for every row of history unless told otherwise
+  bool whole;       ///< of the largest piece unless told otherwise: splinters would hide the answer
+  bool round;       ///< needs a body of revolution or 3d: impossible in plane strain
+  bool in_history;  ///< cheap enough for every row of history unless told otherwise
   const char* meaning;
 };
 

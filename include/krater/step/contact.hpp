@@ -14,15 +14,17 @@
 /// phi_B); normal and gap are judged there, for in the tail of a body its gradient means nothing.
 /// Normal: n ~ |grad phi_B|^20 grad phi_B - |grad phi_A|^20 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
-/// aside; equal ones are averaged. Touching: a gap is a valley of the total filling along the grid
-/// axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) + phi(j+1))/2. The volume
-/// criterion of numerics A10, sum phi > 1 - tol, is this one where bodies are wide; at the edge of
-/// a punch the filling falls off along the contact, and only the valley tells a gap from an edge.
-/// Three and more fields: pairs in fixed order, three sweeps.
+/// aside; equal ones are averaged. `normal: logistic_regression` takes n
+/// from the points instead (step/contact_regression.hpp). Touching: a gap is a valley of the total
+/// filling along the grid axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) +
+/// phi(j+1))/2. The volume criterion of numerics A10, sum phi > 1 - tol, is this one where bodies
+/// are wide; at the edge of a punch the filling falls off along the contact, and only the valley
+/// tells a gap from an edge. Three and more fields: pairs in fixed order, three sweeps.
 #include <cstdint>
 #include <vector>
 
 #include "krater/step/boundary.hpp"
+#include "krater/step/kernels.hpp"
 
 namespace krater {
 
@@ -46,8 +48,8 @@ class ContactSet {
   bool active() const { return options_.active; }
   /// Find the blocks that fields share; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
-  /// Change v+ and dv of [v+, m, dv, V] where fields touch.
-  ContactWork apply(BlockGrid& grid);
+  /// Change v+ and dv of [v+, m, dv, V] where fields touch. Field k is body k.
+  ContactWork apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -60,6 +62,7 @@ class ContactSet {
   };
   struct Scratch {
     std::vector<double> filling;  ///< per field, padded by two nodes on each side
+    bool filled = false;          ///< with the group at hand
   };
   struct Contact {
     int a, b;  ///< fields of the group
@@ -73,7 +76,12 @@ class ContactSet {
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
-  ContactWork touch_group(BlockGrid& grid, Group& group, Scratch& scratch) const;
+  ContactWork touch_group(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
+                          Scratch& scratch) const;
+  int find_contacts(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
+                    Scratch& scratch, int n, Contact* contacts) const;
+  void refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, const Group& group,
+              int n, Contact& contact) const;
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
   std::array<double, 3> gradient(const double* phi) const;

@@ -41,9 +41,12 @@ struct MethodOptions {
   double refresh_strain = 0.3;  ///< adaptive: largest Green-Lagrange strain before a new reference
 };
 
+enum class ContactNormal { volume_gradient, logistic_regression };
+
 /// Contact of velocity fields; every body has its own while it is on.
 struct ContactOptions {
   bool active = false;
+  ContactNormal normal = ContactNormal::volume_gradient;
   int fields = 0;
   std::vector<double> friction;  ///< Coulomb coefficient by pair of fields, fields x fields
   double friction_of(int a, int b) const {
