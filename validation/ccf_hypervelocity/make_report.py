@@ -31,17 +31,19 @@ SPACE = ["frame=3d", "grid.box={min: [0, 0, -44 mm], max: [36 mm, 36 mm, 36 mm]}
 
 
 def plateau(run):
-    """(mean pressure [Pa], scatter, time) behind the shock at 0.25 us, near the axis, by points of both bodies that
-    are above 3/4 of the highest: the one-dimensional state, before the release from the edge arrives."""
+    """(mean pressure [Pa], scatter, points) at 0.25 us: points within 1 mm of the axis, from 1 mm below the interface to
+    0.7 mm above it, which is between the two shocks and ahead of the release from the edge."""
     with h5py.File(os.path.join(run.folder, "frames.h5"), "r") as file:
         names = sorted(file["frames"])
         name = min(names, key=lambda n: abs(float(file["frames"][n].attrs["time"]) - 0.25e-6))
-        frame = file["frames"][name]
-        values = []
+        frame, z, p = file["frames"][name], {}, {}
         for body in ("target", "projectile"):
-            x, p = frame[body]["coordinates"][()], frame[body]["pressure"][()].ravel()
-            values.append(p[(x[:, 0] < 1e-3) & (p > 0.75 * EXACT)])
-        values = np.concatenate(values)
+            x = frame[body]["coordinates"][()]
+            near = x[:, 0] < 1e-3
+            z[body], p[body] = x[near, 2], frame[body]["pressure"][()].ravel()[near]
+    interface = 0.5 * (z["target"].max() + z["projectile"].min())
+    values = np.concatenate([p["target"][z["target"] > interface - 1e-3],
+                             p["projectile"][z["projectile"] < interface + 0.7e-3]])
     return float(values.mean()), float(values.std()), len(values)
 
 
@@ -56,8 +58,8 @@ TITLES = ["run", "peak pressure GPa", "penetration mm", "crater diameter mm", "p
 def first_contact(study, early):
     study.add("## Pressure of first contact",
               f"Exact for plane flow: {1e-9 * EXACT:.2f} GPa (Hugoniots of the two cards, equal pressure and velocity). "
-              "Mean over the points behind the shock within 1 mm of the axis at 0.25 µs, before the release from the "
-              "edge arrives there.")
+              "Mean over the points within 1 mm of the axis at 0.25 µs, from 1 mm below the interface to 0.7 mm above it: "
+              "between the two shocks and ahead of the release from the edge.")
     rows = []
     for n, run in early.items():
         if run:

@@ -18,11 +18,12 @@ ESTIMATED_SECONDS = 600  # on two quiet cores
 PAPER_RATIO = 0.3
 CELLS = {"3.1": 4.06e-3, "6.3": 2.03e-3}  # by cells through the plate
 SECONDS = {("quarter", "3.1"): 2, ("full", "3.1"): 6, ("quarter", "6.3"): 30, ("full", "6.3"): 130}
-QUARTER = ["grid.box={min: [0, 0, -60 mm], max: [108 mm, 101.5 mm, 40 mm]}",
+QUARTER = ["grid.box={min: [0, 0, -60 mm], max: [121.8 mm, 101.5 mm, 40 mm]}",
            "grid.boundary.x_min=symmetry", "grid.boundary.y_min=symmetry"]
-ROUND = ["frame=axisymmetric", "grid.boundary={r_min: axis}", "grid.box={min: [0, -60 mm], max: [108 mm, 40 mm]}",
+ROUND = ["frame=axisymmetric", "grid.box={min: [0, -60 mm], max: [108 mm, 40 mm]}",
          "bodies.plate.shape={cylinder: {radius: 101.5 mm, height: 12.7 mm, base: [0, 0, -12.7 mm]}}",
          "bodies.projectile.velocity=[0, -970 m/s]"]
+HELD = "  boundary: {y_min: sticky, y_max: sticky}"
 ROUND_CELLS = {"6.3": 2.03e-3, "12.5": 1.015e-3, "25": 0.5075e-3, "50": 0.25375e-3}
 
 
@@ -68,9 +69,15 @@ def main():
             runs[kind, n] = study.run(f"{kind}_{n.replace('.', '_')}",
                                       [f"grid.cell={cell!r}", *(QUARTER if kind == "quarter" else [])],
                                       SECONDS[kind, n], study.cores)
-    spun = {n: study.run(f"round_{n.replace('.', '_')}", [f"grid.cell={cell!r}", *ROUND], seconds, study.cores)
+    spun = {n: study.run(f"round_{n.replace('.', '_')}", [f"grid.cell={cell!r}", *ROUND], seconds, study.cores, without=[HELD])
             for (n, cell), seconds in zip(ROUND_CELLS.items(), (1, 3, 15, 110))}
-    whole = study.run("no_damage", ["grid.cell=0.5075 mm", *ROUND], 15, study.cores, without=["    damage: card"])
+    variants = {"points removed at failure, 12.5 cells": ("1.015 mm", ["materials.aluminium.failure.action=remove"]),
+                "points removed at failure, 25 cells": ("0.5075 mm", ["materials.aluminium.failure.action=remove"]),
+                "flip_fraction 1, 25 cells": ("0.5075 mm", ["method.flip_fraction=1.0"])}
+    variants = {name: study.run("variant_" + "".join(c if c.isalnum() else "_" for c in name),
+                                [f"grid.cell={cell}", *more, *ROUND], 15, study.cores, without=[HELD])
+                for name, (cell, more) in variants.items()}
+    whole = study.run("no_damage", ["grid.cell=0.5075 mm", *ROUND], 15, study.cores, without=[HELD, "    damage: card"])
 
     study.add("A 6061-T6 cylinder of 16.7 x 24.7 mm hits a 6061-T6 plate of 203 x 203 x 12.7 mm, held at two edges, at 970 m/s: "
               "[inputs/spear_plate.yaml](../../inputs/spear_plate.yaml), Spear, Palazotto, Kemnitz, Mathematics 9 (2021) 274. "
@@ -85,9 +92,10 @@ def main():
     study.add("## Refinement, axisymmetric",
               "The same projectile on a free round plate of radius 101.5 mm: how far 3D at these cells is from converged.")
     study.add_table(TITLES, [*(row(f"axisymmetric, {n} cells", run) for n, run in spun.items()),
-                             row("axisymmetric, 25 cells, no damage", whole)])
-    study.add("![round](round.png)")
-    finest = [run for run in spun.values() if run][-1]
+                             row("no damage, 25 cells", whole),
+                             *(row(name, run) for name, run in variants.items())])
+    study.add("![round](round.png)", "![variants](variants.png)")
+    finest = next((run for run in reversed(spun.values()) if run), None)
     study.add("Pieces at 60 µs, finest axisymmetric run:")
     fragments(study, finest, "pieces")
     discussion(study)
@@ -102,6 +110,8 @@ def main():
     outside(study, last or three, 60e-6, "outside.png", strain, "At 60 µs, from below", elevation=-30.0)
     shapes(study, {f"{n} cells": run for n, run in spun.items()}, (12e-6, 30e-6, 60e-6), "round.png", strain,
            [-35, 35, -60, 28], "Axisymmetric")
+    shapes(study, {name.replace("points ", ""): run for name, run in variants.items()}, (12e-6, 30e-6, 60e-6), "variants.png",
+           strain, [-35, 35, -60, 28], "Axisymmetric, what failure does")
     histories(study, {**three, **{f"axisymmetric, {n}": run for n, run in spun.items()}},
               {"residual_velocity": "largest piece"}, "velocities.png", "velocity [m/s]", -1.0)
     study.write("6061-T6 cylinder on plate, 970 m/s (Spear 2021)")
