@@ -52,7 +52,7 @@ BlockKey cell_of(const Triple& x, const MeasureContext& context) {
 std::vector<BlockKey> forward_neighbours(int dimension) {
   std::vector<BlockKey> steps;
   const int z = dimension == 3 ? 1 : 0;
-  for (int i = -1; i <= 1; ++i)
+  for (int i = 0; i <= 1; ++i)
     for (int j = -1; j <= 1; ++j)
       for (int k = -z; k <= z; ++k)
         if (BlockKey{} < BlockKey{{i, j, k}}) steps.push_back({{i, j, k}});
