@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
-from validate_impacts import (COST_TITLES, Scale, costs, discussion, fragments, histories, nanoseconds,  # noqa: E402
+from validate_impacts import (COST_TITLES, Scale, costs, discussion, fragments, histories,  # noqa: E402
                               shapes, value)
 from validate_runs import Study  # noqa: E402
 
@@ -120,9 +120,7 @@ def main():
               "Without `contact:` the two bodies share one velocity field: they stick, in tension too.")
     study.add_table(TITLES, [row("contact, 20 cells", runs[20]), row("single field, 20 cells", single)])
     if single and runs[20]:
-        a, b = nanoseconds(runs[20]), nanoseconds(single)
-        study.add(f"{a:.0f} ns per point-step with contact, {b:.0f} without, ratio {a / b:.2f} (wall clock of a machine "
-                  "that others use).", "![single field](single_field.png)")
+        study.add("What contact costs per point-step is in [contact](../contact/README.md).", "![single field](single_field.png)")
     finest = [run for run in runs.values() if run][-1]
     study.add("Pieces at 10 µs, finest run:")
     fragments(study, finest, "pieces")

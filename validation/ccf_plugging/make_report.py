@@ -9,7 +9,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
-from validate_impacts import (COST_TITLES, Scale, costs, discussion, fragments, histories, nanoseconds,  # noqa: E402
+from validate_impacts import (COST_TITLES, Scale, costs, discussion, fragments, histories,  # noqa: E402
                               outside, shapes, value)
 from validate_runs import Study  # noqa: E402
 
@@ -115,9 +115,7 @@ def main():
     study.add_table(TITLES, [row("contact, 20 cells", shorter[20]), row("single field, 20 cells", single),
                              row("contact, 10 cells", shorter[10]), row("contact, no damage, 10 cells", no_damage)])
     if single and shorter[20]:
-        a, b = nanoseconds(shorter[20]), nanoseconds(single)
-        study.add(f"Cost of contact: {a:.0f} ns per point-step with it, {b:.0f} without, ratio {a / b:.2f} (demanded "
-                  "<= 1.3 in a touching scene; wall clock of a machine that others use).")
+        study.add("What contact costs per point-step is in [contact](../contact/README.md).")
     study.add("![single field](single_field.png)")
     study.add("## A quarter in 3D, plate cut at 100 mm, 100 µs")
     study.add_table(TITLES, [row(f"3D quarter, {n} cells", run) for n, run in space.items()])
