@@ -111,7 +111,7 @@ def add_memory(study, part):
 
 
 def add_effects(study, part):
-    study.add("## Effects", "The Taylor scene (3d, cell 2 h) with one effect removed or replaced at a time. Instructions per "
+    study.add("## Effects", "The Taylor scene (3d, cell 2 h) with one effect removed or replaced at a time. Instructions (cell 3 h) per "
               "point-step of the AVX2 level by callgrind: no other user disturbs them.", calibration(part))
     full = part["rows"]["everything"]
     study.add_table(["scene", "ns", "share", "instructions", "share", "record bytes/point"],
