@@ -322,6 +322,9 @@ def draw_diameter(axes, centre, z, value, wanted, height):
 
 def draw_measure(axes, run, bodies, measure, box, mm):
     """Draws one measure if it is a length that can be shown, and returns its height in the picture."""
+    # Of several bodies, a piece or a past extreme: not to be seen in this picture.
+    if not isinstance(measure.get("body", ""), str) or measure.get("piece") or measure.get("keep"):
+        return None
     mine = [b for b in bodies if b.name == measure.get("body", b.name)]
     if measure.get("unit") != "m" or not mine:
         return None

@@ -14,6 +14,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -45,6 +46,15 @@ class Run:
     def wall(self):
         return self.summary["machine"]["wall_seconds"]
 
+    @property
+    def memory(self):
+        """Largest resident memory of the program in bytes; None where it was not recorded."""
+        try:
+            with open(os.path.join(self.folder, "memory.txt"), encoding="utf-8") as file:
+                return float(file.read())
+        except OSError:
+            return None
+
     def history(self):
         """name -> values."""
         with open(os.path.join(self.folder, "history.csv"), newline="", encoding="utf-8") as file:
@@ -68,6 +78,17 @@ class Point:
 
     def __getitem__(self, name):
         return self.columns[name]
+
+
+def execute(command, environment):
+    """(finished process, largest resident memory of it in bytes)."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors, env=environment)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        errors.seek(0)
+        done = subprocess.CompletedProcess(command, process.returncode, "", errors.read())
+    return done, 1024.0 * usage.ru_maxrss
 
 
 def digest(*paths):
@@ -97,9 +118,10 @@ class Study:
         print(f"{self.name}: about {seconds:.0f} s on 2 quiet cores; {self.krater}; results in "
               f"{os.path.join(self.folder, 'runs_out')}", flush=True)
 
-    def run(self, label, settings=(), seconds=0.0, threads=1):
-        """Run `label` with --set options; None if it fails or the budget does not allow it."""
-        folder, stamp, wanted = self.place(label, settings)
+    def run(self, label, settings=(), seconds=0.0, threads=1, without=()):
+        """Run `label` with --set options; None if it fails or the budget does not allow it. `without`: lines
+        of the scene to leave out, for a block whose absence is the switch."""
+        folder, stamp, wanted = self.place(label, [*settings, *("without " + line for line in without)])
         if self.stands(stamp, wanted):
             return Run(folder)
         if time.monotonic() - self.start + seconds > self.budget:
@@ -107,27 +129,42 @@ class Study:
             return None
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(os.path.dirname(folder), exist_ok=True)
-        command = [self.krater, "run", self.scene, "-o", folder, "-j", str(threads), "--quiet"]
+        scene = self.scene_without(label, without) if without else self.scene
+        command = [self.krater, "run", scene, "-o", folder, "-j", str(threads), "--quiet"]
         for setting in settings:
             command += ["--set", setting]
         environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
         begin = time.monotonic()
-        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+        done, memory = execute(command, environment)
         for _ in range(3):  # interrupted by someone else's signal: the same bits from the checkpoint
             checkpoint = os.path.join(folder, "checkpoint.h5")
             if done.returncode != 4 or not os.path.exists(checkpoint):
                 break
-            done = subprocess.run([*command, "--restart", checkpoint], capture_output=True, text=True,
-                                  env=environment, check=False)
+            done, memory = execute([*command, "--restart", checkpoint], environment)
         print(f"  {label}: {time.monotonic() - begin:.1f} s" +
               (f", exit code {done.returncode}" if done.returncode else ""), flush=True)
         if done.returncode:
             words = done.stderr.strip().splitlines()
             self.failed.append((label, done.returncode, words[-1] if words else ""))
             return None
+        with open(os.path.join(folder, "memory.txt"), "w", encoding="utf-8") as file:
+            file.write(f"{memory}\n")
         with open(stamp, "w", encoding="utf-8") as file:
             file.write(wanted)
         return Run(folder)
+
+    def scene_without(self, label, lines):
+        """A copy of the scene in the folder of the results; cards are found from there too."""
+        with open(self.scene, encoding="utf-8") as file:
+            text = file.read()
+        for line in lines:
+            if text.count(line + "\n") != 1:
+                raise ValueError(f"{self.scene} has not exactly one line '{line}'")
+            text = text.replace(line + "\n", "")
+        path = os.path.join(self.folder, "runs_out", label + ".yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
 
     def place(self, label, settings):
         """Folder of a result, its stamp, and what the stamp must say."""

@@ -40,6 +40,10 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     : options_{&scene.bodies.at(static_cast<std::size_t>(index))},
       material_{&scene.materials.at(static_cast<std::size_t>(options_->material))},
       layout_{dimension(scene.frame)} {
+  if (options_->rigid()) {
+    declare_rigid_columns(scene);
+    return;
+  }
   declare_method_columns(scene);
   add_stages(factory);
   layout_.local_input<field::SignalSpeed>(kMethod);
@@ -77,6 +81,17 @@ void Body::declare_method_columns(const Scene& scene) {
     layout_.state<field::DeformationGradient>(0, kMethod);
   layout_.local_output<field::StepGradient>(kMethod);
   layout_.local_output<field::ExtraDilatation>(kMethod);
+}
+
+/// What the scatter and the motion as a whole need; no stress, no law.
+void Body::declare_rigid_columns(const Scene& scene) {
+  layout_.state<field::Id>(0, kMethod);
+  layout_.state<field::Position>(0, kMethod);
+  layout_.state<field::Velocity>(0, kMethod);
+  layout_.state<field::Mass>(0, kMethod);
+  layout_.state<field::Density>(material_->density, kMethod);
+  layout_.state<field::ReferencePosition>(0, kMethod);
+  if (scene.method.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
 }
 
 void Body::add_stages(const StageFactory& factory) {

@@ -57,6 +57,9 @@ void print_body(const Simulation& sim, const Body& body, int index) {
   const Totals t = sim.totals(index);
   fmt::print("body {}: material {}, {:.0f} points, mass {:.6g} kg\n", body.name(),
              body.material().name, t.count, t.mass);
+  if (const RigidBody* rigid = sim.rigid().find(index))
+    fmt::print("  rigid, {}:{}\n", rigid->options().free ? "free" : "prescribed motion",
+               describe_motion(sim.scene().frame, rigid->options()));
   print_shape(sim.scene(), body);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
@@ -93,9 +96,18 @@ double closing_speed(const Simulation& sim, double fastest) {
   return closing;
 }
 
+/// Some body of this material can deform.
+bool deforms(const Scene& scene, const MaterialOptions& material) {
+  for (const BodyOptions& body : scene.bodies)
+    if (&scene.materials[static_cast<std::size_t>(body.material)] == &material && !body.rigid())
+      return true;
+  return false;
+}
+
 /// Impact regime by velocity and stress (BUSH, after Zukas): what a scene of this speed needs.
 void print_advice(const Scene& scene, double fastest, double closing) {
   for (const MaterialOptions& m : scene.materials) {
+    if (!deforms(scene, m)) continue;
     if (fastest > 500 && m.eos && m.eos->name == "linear")
       fmt::print(
           "advice: {}: {:.0f} m/s with a linear equation of state; shocks need "
@@ -140,6 +152,20 @@ void write_start(const Simulation& sim, const std::string& folder) {
   results.flush();
 }
 
+/// Which bodies may touch, and how.
+void print_contact(const Scene& scene) {
+  const ContactOptions& contact = scene.contact;
+  if (!contact.active) return;
+  fmt::print("contact: normals by {}; friction", contact.normal == ContactNormal::volume_gradient
+                                                     ? "volume gradient"
+                                                     : "logistic regression");
+  for (int a = 0; a < contact.fields; ++a)
+    for (int b = a + 1; b < contact.fields; ++b)
+      fmt::print(" {} - {}: {:g};", scene.bodies[static_cast<std::size_t>(a)].name,
+                 scene.bodies[static_cast<std::size_t>(b)].name, contact.friction_of(a, b));
+  fmt::print("\n");
+}
+
 }  // namespace
 
 void print_check(const RunOptions& options) {
@@ -157,6 +183,7 @@ void print_check(const RunOptions& options) {
     fastest = std::max(fastest, t.mass > 0 ? std::sqrt(2 * t.kinetic / t.mass) : 0);
     signal = std::max(signal, sim.bodies()[b]->initial_sound_speed());
   }
+  print_contact(scene);
   const double steps =
       scene.time.end * (fastest + 1.35 * signal) / (scene.time.cfl * scene.grid.cell);
   const double work = steps * static_cast<double>(sim.point_count());

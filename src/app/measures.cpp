@@ -5,10 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
-#include <optional>
+#include <utility>
 
-#include "krater/app/volume_fraction.hpp"
+#include "krater/app/measure_surface.hpp"
+#include "krater/app/openings.hpp"
+#include "krater/app/pieces.hpp"
 #include "krater/core/errors.hpp"
 
 namespace krater {
@@ -16,262 +17,213 @@ namespace krater {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kBand = 1.5;  // b / a: 1 is noisier with irregular points, 2 sees more curvature
-constexpr double kTouching = 1.0;  // a body this near to a symmetry plane, in a, is cut by it
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-double spacing(const MeasureContext& context) {
-  return 2 * context.h / context.points_per_direction;
+/// sum m q(p)
+template <class Q>
+double sum(const BodyPoints& body, const Q& q) {
+  double total = 0;
+  for (std::size_t p = 0; p < body.count(); ++p) total += body.mass[p] * q(p);
+  return total;
 }
 
-bool closed(const MeasureContext& context, int axis, int side) {
-  return context.boundary[index(axis)][index(side)] != BoundaryKind::open;
+double mass(const BodyPoints& body) {
+  return sum(body, [](std::size_t) { return 1.0; });
 }
 
-bool symmetry(const MeasureContext& context, int axis, int side) {
-  return context.boundary[index(axis)][index(side)] == BoundaryKind::symmetry;
+double momentum(const BodyPoints& body, int axis) {
+  return sum(body, [&](std::size_t p) { return body.v[p][index(axis)]; });
 }
 
-/// Least and greatest coordinate of the points.
-std::array<double, 2> range(const BodyPoints& body, int axis) {
-  std::array<double, 2> result{std::numeric_limits<double>::infinity(),
-                               -std::numeric_limits<double>::infinity()};
-  for (const Triple& x : body.x) {
-    result = {std::min(result[0], x[index(axis)]), std::max(result[1], x[index(axis)])};
-  }
-  return result;
+double kinetic_energy(const BodyPoints& body) {
+  return 0.5 * sum(body, [&](std::size_t p) {
+           const Triple& v = body.v[p];
+           return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+         });
 }
 
-/// A_p at distance r from the axis for a share of the full revolution. A point on the axis itself
-/// stands for radii up to its own size, so r is bounded below.
-double section(double volume, double r, double share, double a) {
-  return volume / (2 * std::numbers::pi * share * std::max(r, 0.2 * a));
-}
-
-double volume(const BodyPoints& body, std::size_t p) { return body.mass[p] / body.density[p]; }
-
-MeasuringAxis body_axis(const BodyPoints& body, const MeasureContext& context, int d) {
-  return measuring_axis(spacing(context), {context.min[index(d)], context.max[index(d)]},
-                        {closed(context, d, 0), closed(context, d, 1)}, range(body, d));
-}
-
-VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context) {
-  std::array<MeasuringAxis, 3> axes;
-  for (int d = 0; d < dimension(context.frame); ++d) axes[index(d)] = body_axis(body, context, d);
-  std::vector<double> sections(body.count());
-  for (std::size_t p = 0; p < body.count(); ++p) {
-    const double V = volume(body, p);
-    sections[p] =
-        context.frame == Frame::axisymmetric ? section(V, body.x[p][0], 1, spacing(context)) : V;
-  }
-  return {dimension(context.frame), axes, body.x, sections};
-}
-
-/// Highest or lowest place of the surface along an axis.
-double outermost(const BodyPoints& body, const MeasureContext& context, int axis, int side) {
-  VolumeFraction::Walls walls{};
-  for (int d = 0; d < dimension(context.frame); ++d) {
-    for (int s = 0; s < 2; ++s) {
-      walls[index(d)][index(s)] = closed(context, d, s) && !symmetry(context, d, s);
-    }
-  }
-  return volume_fraction(body, context).outermost(axis, side, walls);
-}
-
-double extent(const BodyPoints& body, const MeasureContext& context, int axis) {
-  return outermost(body, context, axis, 1) - outermost(body, context, axis, 0);
-}
-
-/// A point of the band about z0: coordinate across the axis, A_p K / b, distance from z0 in a.
-struct BandPoint {
-  double q, content, u;
-};
-
-/// The section at z0: what is measured across, and where it is cut by a symmetry plane.
-struct Band {
-  std::vector<BandPoint> points;
-  MeasuringAxis axis;
-  int trusted =
-      0;  ///< nodes about the axis of a 3d body, where 1 / r varies within one point, are not
-};
-
-/// The line of phi and its moments in the band; side 1 outwards along q, side 0 against it.
-std::optional<double> edge(const Band& band, int side) {
-  const MeasuringAxis& axis = band.axis;
-  FractionLine line;
-  line.spacing = axis.spacing;
-  line.closed_inner = axis.closed[index(1 - side)];
-  line.closed_outer = axis.closed[index(side)];
-  line.trusted = band.trusted;
-  for (auto* values : {&line.phi, &line.first, &line.second})
-    values->assign(index(axis.count), 0.0);
-  for (const BandPoint& point : band.points) {
-    const NodeWeights w = node_weights(axis, point.q);
-    for (std::size_t n = 0; n < 3; ++n) {
-      const std::size_t i = index(side == 1 ? w.index[n] : axis.count - 1 - w.index[n]);
-      const double share = w.weight[n] * point.content / axis.spacing;
-      line.phi[i] += share;
-      line.first[i] += share * point.u;
-      line.second[i] += share * point.u * point.u;
-    }
-  }
-  // How full a full line is depends on how much of the band lies beyond the body's end.
-  line.full = 0;
-  for (std::size_t i = 1; i + 1 < line.phi.size(); ++i) {
-    line.full = std::max(line.full, (line.phi[i - 1] + line.phi[i] + line.phi[i + 1]) / 3);
-  }
-  const std::optional<LineEdge> found = outer_edge(line);
-  if (!found) return std::nullopt;
-  return side == 1 ? axis.origin + found->place : axis.node(axis.count - 1) - found->place;
-}
-
-/// The side on which a symmetry plane cuts the body, if any.
-std::optional<int> cut_side(const BodyPoints& body, const MeasureContext& context, int axis) {
-  const std::array<double, 2> occupied = range(body, axis);
-  const double near = kTouching * spacing(context);
-  if (symmetry(context, axis, 0) && occupied[0] - context.min[index(axis)] < near) return 0;
-  if (symmetry(context, axis, 1) && context.max[index(axis)] - occupied[1] < near) return 1;
-  return std::nullopt;
-}
-
-/// K of every point for the band about z0 on the last axis.
-std::vector<double> band_weights(const BodyPoints& body, int last, double z0, double b) {
-  std::vector<double> weights(body.count());
-  for (std::size_t p = 0; p < body.count(); ++p)
-    weights[p] = bspline((body.x[p][index(last)] - z0) / b);
-  return weights;
-}
-
-/// 3d: the axis of the body at the height of the band.
-double centre(const BodyPoints& body, const MeasureContext& context,
-              const std::vector<double>& weights, int d) {
-  const std::optional<int> side = cut_side(body, context, d);
-  if (side) return *side == 0 ? context.min[index(d)] : context.max[index(d)];
-  double sum = 0, moment = 0;
-  for (std::size_t p = 0; p < body.count(); ++p) {
-    sum += weights[p] * volume(body, p);
-    moment += weights[p] * volume(body, p) * body.x[p][index(d)];
-  }
-  return moment / sum;
-}
-
-/// The band of a round body, as the half section (r, z).
-Band round_band(const BodyPoints& body, const MeasureContext& context, double z0) {
-  const double a = spacing(context), b = kBand * a;
-  const int last = dimension(context.frame) - 1;
-  const std::vector<double> weights = band_weights(body, last, z0, b);
-  const bool space = context.frame == Frame::cartesian_3d;
-  Triple middle{};
-  double share = 1;
-  for (int d = 0; space && d < 2; ++d) {
-    middle[index(d)] = centre(body, context, weights, d);
-    if (cut_side(body, context, d)) share /= 2;
-  }
-  Band band;
-  double furthest = 0;
-  for (std::size_t p = 0; p < body.count(); ++p) {
-    if (weights[p] == 0) continue;
-    const Triple& x = body.x[p];
-    const double r = space ? std::hypot(x[0] - middle[0], x[1] - middle[1]) : x[0];
-    band.points.push_back(
-        {r, section(volume(body, p), r, share, a) * weights[p] / b, (x[index(last)] - z0) / a});
-    furthest = std::max(furthest, r);
-  }
-  const double lower = space ? 0.0 : context.min[0];
-  const bool inner = space || symmetry(context, 0, 0);
-  band.trusted = space ? 2 : 0;
-  const bool outer = !space && closed(context, 0, 1);
-  const double far = space ? lower + a * (std::ceil(furthest / a) + 3) : context.max[0];
-  band.axis =
-      measuring_axis(a, {lower, far}, {inner, outer}, {space ? 0.0 : range(body, 0)[0], furthest});
-  return band;
-}
-
-Band flat_band(const BodyPoints& body, const MeasureContext& context, double z0) {
-  const double a = spacing(context), b = kBand * a;
-  const std::vector<double> weights = band_weights(body, 1, z0, b);
-  Band band;
-  for (std::size_t p = 0; p < body.count(); ++p) {
-    if (weights[p] == 0) continue;
-    band.points.push_back(
-        {body.x[p][0], volume(body, p) * weights[p] / b, (body.x[p][1] - z0) / a});
-  }
-  band.axis = body_axis(body, context, 0);
-  return band;
-}
-
-double diameter(const MeasureOptions& measure, const BodyPoints& body,
-                const MeasureContext& context) {
-  const int last = dimension(context.frame) - 1;
-  const double low = outermost(body, context, last, 0), high = outermost(body, context, last, 1);
-  double z0 = measure.at_from_end ? low + measure.at : measure.at;
-  const double reach = spacing(context) / 2;
-  if (!(z0 > low - reach && z0 < high + reach)) return kNothing;
-  z0 = std::clamp(z0, low, high);
-  if (context.frame != Frame::plane_strain) {
-    const std::optional<double> r = edge(round_band(body, context, z0), 1);
-    return r ? 2 * *r : kNothing;
-  }
-  const Band band = flat_band(body, context, z0);
-  const std::optional<int> cut = cut_side(body, context, 0);
-  const std::optional<double> right = edge(band, 1), left = edge(band, 0);
-  if (!left || !right) return kNothing;
-  if (!cut) return *right - *left;
-  return 2 * (*cut == 0 ? *right - context.min[0] : context.max[0] - *left);
-}
-
-double mean_velocity(const BodyPoints& body, int axis) {
-  double mass = 0, momentum = 0;
-  for (std::size_t p = 0; p < body.count(); ++p) {
-    mass += body.mass[p];
-    momentum += body.mass[p] * body.v[p][index(axis)];
-  }
-  return momentum / mass;
-}
-
-const std::vector<double>& scalar(const MeasureOptions& measure, const BodyPoints& body) {
-  const auto found = body.scalars.find(measure.field);
+const std::vector<double>& scalar(const MeasureOptions& measure, const BodyPoints& body,
+                                  const std::string& field) {
+  const auto found = body.scalars.find(field);
   if (found != body.scalars.end()) return found->second;
   std::string carried;
   for (const auto& [name, values] : body.scalars) carried += (carried.empty() ? "" : ", ") + name;
-  throw InputError(measure.where + ": the body carries no field '" + measure.field +
-                   "' (it carries " + (carried.empty() ? "none" : carried) + ")");
+  throw InputError(measure.where + ": the body carries no field '" + field + "' (it carries " +
+                   (carried.empty() ? "none" : carried) + ")");
 }
 
-double mean(const std::vector<double>& values, const std::vector<double>& mass) {
-  double sum = 0, weighted = 0;
-  for (std::size_t p = 0; p < values.size(); ++p) {
-    sum += mass[p];
-    weighted += mass[p] * values[p];
+double total(const BodyPoints& body, const std::vector<double>& values) {
+  return sum(body, [&](std::size_t p) { return values[p]; });
+}
+
+/// Only materials that can fail carry the field.
+double failed_mass(const BodyPoints& body) {
+  const auto failed = body.scalars.find("failed");
+  return failed == body.scalars.end() ? 0.0 : total(body, failed->second);
+}
+
+/// Sums in another order differ in their last bits: that is no loss.
+double removed_mass(const BodyPoints& body, const MeasureStart& start) {
+  const double gone = start.mass - mass(body);
+  return std::abs(gone) > 1e-12 * start.mass ? gone : 0.0;
+}
+
+/// Least q with sum of the weights of all not greater >= wanted, in linear time: a weighted
+/// quickselect.
+double weighted_quantile(std::vector<std::pair<double, double>> items, double wanted) {
+  auto low = items.begin(), high = items.end();
+  double below = 0;  // weight of the items before `low`
+  while (high - low > 1) {
+    const auto middle = low + (high - low) / 2;
+    std::nth_element(low, middle, high);
+    double left = 0;
+    for (auto i = low; i != middle; ++i) left += i->second;
+    if (below + left >= wanted) {
+      high = middle;
+    } else {
+      below += left;
+      low = middle;
+    }
   }
-  return weighted / sum;
+  return low->first;
+}
+
+double debris_extent(const MeasureOptions& measure, const BodyPoints& body,
+                     const MeasureContext& context) {
+  const int axis = measure.axis;
+  const bool below = is_symmetry(context, axis, 0), above = is_symmetry(context, axis, 1);
+  const double plane = below ? context.min[index(axis)] : context.max[index(axis)];
+  const double spacing = node_spacing(context) / 2;
+  std::vector<std::pair<double, double>> items;
+  items.reserve(body.count());
+  for (std::size_t p = 0; p < body.count(); ++p) {
+    const double x = body.x[p][index(axis)];
+    items.emplace_back(below || above ? std::abs(x - plane) : x, body.mass[p]);
+  }
+  // A sum in another order must not fall short of all the mass.
+  const double all = mass(body) * (1 - 1e-12), s = measure.mass_share;
+  if (below || above) return 2 * weighted_quantile(items, s * all) + spacing;
+  const double low = weighted_quantile(items, (1 - s) / 2 * all);
+  return weighted_quantile(items, (1 + s) / 2 * all) - low + spacing;
+}
+
+double penetration_depth(const MeasureOptions& measure, const BodyPoints& body,
+                         const MeasureContext& context, const MeasureStart& start) {
+  const double front = outermost(body, context, measure.axis, 1 - measure.side);
+  return measure.side == 1 ? start.face - front : front - start.face;
+}
+
+double maximum(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+using Evaluate = double (*)(const MeasureOptions&, const BodyPoints&, const MeasureContext&,
+                            const MeasureStart&);
+
+struct Evaluator {
+  MeasureKind kind;
+  bool sums;  ///< defined for no points, too
+  Evaluate evaluate;
+};
+
+#define KRATER_MEASURE(kind, sums, value)                                         \
+  {                                                                               \
+    MeasureKind::kind, sums,                                                      \
+        [](const MeasureOptions& m, const BodyPoints& b, const MeasureContext& c, \
+           const MeasureStart& s) -> double {                                     \
+          (void)m, (void)b, (void)c, (void)s;                                     \
+          return value;                                                           \
+        }                                                                         \
+  }
+
+/// In the order of the enum (checked by the tests).
+constexpr Evaluator kEvaluators[] = {
+    KRATER_MEASURE(extent, false, extent(b, c, m.axis)),
+    KRATER_MEASURE(max, false, outermost(b, c, m.axis, 1)),
+    KRATER_MEASURE(min, false, outermost(b, c, m.axis, 0)),
+    KRATER_MEASURE(diameter, false, diameter(b, c, m.at, m.at_from_end)),
+    KRATER_MEASURE(largest_diameter, false, largest_diameter(b, c)),
+    KRATER_MEASURE(mean_velocity, false, momentum(b, m.axis) / mass(b)),
+    KRATER_MEASURE(momentum, true, momentum(b, m.axis)),
+    KRATER_MEASURE(deceleration, false, momentum(b, m.axis) / mass(b)),
+    KRATER_MEASURE(settling_time, false, momentum(b, m.axis) / mass(b)),
+    KRATER_MEASURE(kinetic_energy, true, kinetic_energy(b)),
+    KRATER_MEASURE(internal_energy, true, total(b, scalar(m, b, "internal_energy"))),
+    KRATER_MEASURE(mass, true, mass(b)),
+    KRATER_MEASURE(removed_mass, true, removed_mass(b, s)),
+    KRATER_MEASURE(failed_mass, true, failed_mass(b)),
+    KRATER_MEASURE(mass_lost, true, removed_mass(b, s) + failed_mass(b)),
+    KRATER_MEASURE(mean, false, total(b, scalar(m, b, m.field)) / mass(b)),
+    KRATER_MEASURE(maximum, false, maximum(scalar(m, b, m.field))),
+    KRATER_MEASURE(penetration_depth, false, penetration_depth(m, b, c, s)),
+    KRATER_MEASURE(crater_depth, false, crater_depth(b, c, m.side, s.face)),
+    KRATER_MEASURE(crater_diameter, false, crater_diameter(b, c, m.side, s.face, m.level)),
+    KRATER_MEASURE(hole_diameter, false, hole_diameter(b, c)),
+    KRATER_MEASURE(debris_extent, false, debris_extent(m, b, c)),
+    KRATER_MEASURE(fragments, true, static_cast<double>(connected_pieces(b, c).list.size())),
+};
+#undef KRATER_MEASURE
+
+constexpr bool in_order() {
+  int next = 0;
+  for (const Evaluator& e : kEvaluators)
+    if (static_cast<int>(e.kind) != next++) return false;
+  return next == static_cast<int>(MeasureKind::fragments) + 1;
+}
+static_assert(in_order());
+
+/// The points p for which keep(p).
+template <class K>
+BodyPoints filtered(const BodyPoints& points, const K& keep) {
+  BodyPoints out;
+  for (const auto& [name, values] : points.scalars) out.scalars[name];
+  for (std::size_t p = 0; p < points.count(); ++p) {
+    if (!keep(p)) continue;
+    out.x.push_back(points.x[p]);
+    out.v.push_back(points.v[p]);
+    out.mass.push_back(points.mass[p]);
+    out.density.push_back(points.density[p]);
+    if (!points.body.empty()) out.body.push_back(points.body[p]);
+    for (auto& [name, values] : out.scalars) values.push_back(points.scalars.at(name)[p]);
+  }
+  return out;
+}
+
+bool inside(const MeasureSelection& selection, const Triple& x, int dimension) {
+  for (std::size_t d = 0; d < index(dimension); ++d)
+    if (x[d] < selection.region[d][0] || x[d] > selection.region[d][1]) return false;
+  return true;
 }
 
 }  // namespace
 
-double evaluate(const MeasureOptions& measure, const BodyPoints& body,
-                const MeasureContext& context) {
-  if (body.count() == 0) return kNothing;  // such a body carries no fields either
-  switch (measure.kind) {
-    case MeasureKind::extent:
-      return extent(body, context, measure.axis);
-    case MeasureKind::max:
-      return outermost(body, context, measure.axis, 1);
-    case MeasureKind::min:
-      return outermost(body, context, measure.axis, 0);
-    case MeasureKind::diameter:
-      return diameter(measure, body, context);
-    case MeasureKind::mean_velocity:
-      return mean_velocity(body, measure.axis);
-    case MeasureKind::mean:
-      return mean(scalar(measure, body), body.mass);
-    case MeasureKind::maximum: {
-      const std::vector<double>& values = scalar(measure, body);
-      return *std::max_element(values.begin(), values.end());
-    }
-  }
-  return kNothing;
+BodyPoints select(const MeasureSelection& selection, const BodyPoints& points,
+                  const MeasureContext& context) {
+  const bool everywhere = selection.region == MeasureSelection{}.region;
+  const BodyPoints placed = everywhere ? points : filtered(points, [&](std::size_t p) {
+    return inside(selection, points.x[p], dimension(context.frame));
+  });
+  if (!selection.largest_piece && selection.least_points <= 1) return placed;
+  const Pieces pieces = connected_pieces(placed, context);
+  return filtered(placed, [&](std::size_t p) {
+    const Piece& piece = pieces.list[index(pieces.of[p])];
+    return (!selection.largest_piece || pieces.of[p] == 0) &&
+           piece.points >= index(selection.least_points);
+  });
+}
+
+double face_position(const MeasureOptions& measure, const BodyPoints& points,
+                     const MeasureContext& context) {
+  if (points.count() == 0) return kNothing;
+  return outermost(points, context, measure.axis, measure.side);
+}
+
+double evaluate(const MeasureOptions& measure, const BodyPoints& points,
+                const MeasureContext& context, const MeasureStart& start) {
+  const Evaluator& evaluator = kEvaluators[static_cast<std::size_t>(measure.kind)];
+  if (points.count() == 0 && !evaluator.sums) return kNothing;
+  return evaluator.evaluate(measure, points, context, start);
 }
 
 }  // namespace krater

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "krater/app/folder_lock.hpp"
+#include "krater/app/measurements.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/snapshot.hpp"
 #include "krater/app/version.hpp"
@@ -68,6 +69,7 @@ class Runner {
       : options_{options},
         scene_{std::move(scene)},
         sim_{scene_},
+        measurements_{sim_},
         results_{options.output.empty() ? default_output(options.scene) : options.output,
                  !options.restart.empty()} {}
 
@@ -76,18 +78,19 @@ class Runner {
  private:
   void begin();
   void resume();
-  std::vector<double> measures() const;
+  std::vector<Quantity> history_columns();
   void write_history();
   void write_frame(double time);
   void write_checkpoint();
   int fail(const std::string& message, Progress& progress);
-  Json summary(const std::string& status, double seconds) const;
+  Json summary(const std::string& status, double seconds);
   int finish(const std::string& status, const std::string& message, int code,
              const Progress& progress);
 
   RunOptions options_;
   Scene scene_;
   Simulation sim_;
+  Measurements measurements_;
   ResultsFolder results_;
   FolderLock lock_;
   int frame_ = 0;
@@ -102,7 +105,7 @@ void Runner::begin() {
                            {"frame", std::string{name(scene_.frame)}},
                            {"cell", fmt::format("{:.17g} m", scene_.grid.cell)}});
   if (!options_.restart.empty()) resume();
-  evaluate_measures(sim_);  // what cannot be measured is said before anything is written
+  measurements_.check(sim_);  // what cannot be measured is said before anything is written
   lock_.take(results_.path());
   try {
     results_.write_text("resolved.yaml", scene_.resolved);
@@ -127,6 +130,7 @@ void Runner::resume() {
   } catch (const std::out_of_range&) {
     throw InputError(options_.restart + ": damaged, or written by another version of krater");
   }
+  measurements_.restore(checkpoint);
   const CheckpointBlob* text = checkpoint.find("scene");
   // The first line names the file.
   const auto body = [](const std::string& yaml) { return yaml.substr(yaml.find('\n') + 1); };
@@ -137,13 +141,13 @@ void Runner::resume() {
   first_step_ = sim_.steps();
 }
 
-/// None of a broken state: its positions may be anything.
-std::vector<double> Runner::measures() const {
-  if (!sim_.broken()) return evaluate_measures(sim_);
-  return std::vector<double>(scene_.measures.size(), std::numeric_limits<double>::quiet_NaN());
+std::vector<Quantity> Runner::history_columns() {
+  std::vector<Quantity> row = history_row(sim_);
+  for (Quantity& q : measurements_.row(sim_)) row.push_back(std::move(q));
+  return row;
 }
 
-void Runner::write_history() { results_.write_history(history_row(sim_, measures())); }
+void Runner::write_history() { results_.write_history(history_columns()); }
 
 void Runner::write_frame(double time) {
   OutputFrame frame = make_frame(sim_, frame_);
@@ -155,6 +159,7 @@ void Runner::write_frame(double time) {
 void Runner::write_checkpoint() {
   Checkpoint c = sim_.save();
   c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
+  measurements_.save(c);
   c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
   results_.write_checkpoint(c);
 }
@@ -204,13 +209,13 @@ int Runner::fail(const std::string& message, Progress& progress) {
                            ? std::nextafter(sim_.time(), std::numeric_limits<double>::infinity())
                            : 1e-15 * scene_.time.end;
   write_frame(after);
-  std::vector<Quantity> row = history_row(sim_, measures());
+  std::vector<Quantity> row = history_columns();
   row.front().value = after;
   results_.write_history(row);
   return finish("failed", message, kNumericalFailure, progress);
 }
 
-Json Runner::summary(const std::string& status, double seconds) const {
+Json Runner::summary(const std::string& status, double seconds) {
   const Version v = version();
   Json j;
   j["title"] = Json::of(scene_.title);
@@ -220,7 +225,7 @@ Json Runner::summary(const std::string& status, double seconds) const {
   j["time"] = Json::of(sim_.time());
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
-  j["measures"] = measures_json(sim_, measures());
+  measurements_.summarize(sim_, j);
   j["audit"] = audit_json(sim_);
   Json& limiters = j["dt_limiters"];
   limiters["0"] = Json::of("wave speed");

@@ -84,14 +84,27 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     std::iota(fields.begin(), fields.end(), 0);
     grid_.set_fields(std::move(fields));
   }
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, contact_, *kernels_,
+  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, contact_, rigid_, *kernels_,
                                     *plain_kernels_, kernel_data_);
-  place_points();
+  place_rigid_bodies();
   choose_first_step();
   const Totals start = totals();
   Audit& audit = step_->audit();
   audit.kinetic = audit.initial_kinetic = start.kinetic;
   audit.internal = audit.initial_internal = start.internal;
+}
+
+void Simulation::place_rigid_bodies() {
+  std::vector<bool> rigid(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    rigid[b] = bodies_[b]->options().rigid();
+    if (rigid[b]) rigid_.add(rigid_options(scene_, *bodies_[b], static_cast<int>(b)));
+  }
+  boundary_.set_rigid_fields(std::move(rigid));
+  place_points();
+  for (RigidBody& body : rigid_.all())
+    body.place(grid_, kernel_data_[static_cast<std::size_t>(body.options().body)].columns, 0);
+  rigid_.write_velocities(grid_, kernel_data_);
 }
 
 void Simulation::place_points() {
@@ -202,6 +215,7 @@ double Simulation::next_step(double until) {
 
 void Simulation::step(double until) {
   const double asked = next_step(until);
+  rigid_.set_time(time_);
   if (scene_.body_force) apply_body_force();
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   try {
@@ -211,6 +225,10 @@ void Simulation::step(double until) {
     const std::string text = describe_fault(fault);
     deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
     throw NumericalError(text);
+  } catch (const NumericalError& e) {
+    broken_ = true;
+    deliver(grid_, kernel_data_);
+    throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time_, steps_));
   }
   if (dt_ < asked) dt_free_ = dt_;
   if (walls_act_on_points()) step_->audit().book_point_walls(wall_force, dt_, !scene_.body_force);
@@ -240,8 +258,35 @@ std::array<double, 3> Simulation::apply_point_walls(double dt) {
   return push_from_walls(grid_, kernel_data_, boundary_, spacing, dt);
 }
 
+void Simulation::load_rigid_bodies() {
+  for (RigidBody& body : rigid_.all()) {
+    const auto b = static_cast<std::size_t>(body.options().body);
+    const PointColumns& c = kernel_data_[b].columns;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    for (Patch& patch : grid_.patches) {
+      if (patch.body != static_cast<int>(b)) continue;
+      for (int i = 0; i < patch.count; ++i) {
+        Triple x{}, X{};
+        for (int a = 0; a < geometry_.dimension; ++a) {
+          x[static_cast<std::size_t>(a)] = component(patch, c.stride, c.position + kLanes * a, i);
+          X[static_cast<std::size_t>(a)] =
+              component(patch, c.stride, body.options().reference + kLanes * a, i);
+        }
+        const Triple a = (*scene_.body_force)(x, X, time_);
+        const Eigen::Vector3d f =
+            component(patch, c.stride, c.mass, i) * Eigen::Vector3d{a[0], a[1], a[2]};
+        force += f;
+        moment += (Eigen::Vector3d{x[0], x[1], x[2]} - body.twist().centre).cross(f);
+      }
+    }
+    body.set_load(force, moment);
+  }
+}
+
 void Simulation::apply_body_force() {
+  load_rigid_bodies();
   for (Patch& patch : grid_.patches) {
+    if (rigid_.find(patch.body)) continue;
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
     const int reference = bodies_[static_cast<std::size_t>(patch.body)]
                               ->layout()

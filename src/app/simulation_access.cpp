@@ -169,6 +169,12 @@ Checkpoint Simulation::save() const {
   static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
   const auto* audit = reinterpret_cast<const double*>(&step_->audit());
   numbers("audit", std::vector<double>(audit, audit + sizeof(Audit) / sizeof(double)));
+  std::vector<double> rigid;
+  for (const RigidBody& body : rigid_.all()) {
+    const std::vector<double> state = body.state();
+    rigid.insert(rigid.end(), state.begin(), state.end());
+  }
+  if (rigid_.any()) numbers("rigid", std::move(rigid));
   std::vector<std::int64_t> patches;
   for (const Patch& p : grid_.patches) {
     for (int a = 0; a < 3; ++a) patches.push_back(p.key.i[static_cast<std::size_t>(a)]);
@@ -187,6 +193,15 @@ Checkpoint Simulation::save() const {
         numbers(fmt::format("{}/{}/{}", bodies_[b]->name(), c.field->name, k), std::move(x));
       }
   return out;
+}
+
+void Simulation::restore_rigid(const std::vector<double>& state) {
+  if (state.size() != RigidBody::kStateSize * rigid_.all().size())
+    throw InputError(
+        "checkpoint: it belongs to a scene with other rigid bodies; restart with the scene and the "
+        "--set options it was written with");
+  for (std::size_t i = 0; i < rigid_.all().size(); ++i)
+    rigid_.all()[i].set_state(state.data() + i * RigidBody::kStateSize);
 }
 
 void Simulation::restore(const Checkpoint& checkpoint) {
@@ -209,6 +224,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
     throw InputError("checkpoint was written by another version of krater");
   std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
 
+  if (rigid_.any()) restore_rigid(find("rigid").doubles);
   const auto& patches = find("patches").integers;
   grid_.patches.clear();
   for (std::size_t i = 0; i + 4 < patches.size(); i += 5) {

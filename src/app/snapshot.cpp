@@ -5,6 +5,8 @@
 #include <cstring>
 #include <set>
 
+#include "krater/app/measurements.hpp"
+
 namespace krater {
 
 namespace {
@@ -135,12 +137,19 @@ OutputFrame make_frame(const Simulation& sim, int number) {
       if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
         bf.fields.push_back(column_array(sim, c, points));
     add_stress(sim, body, points, bf);
+    if (asked_for(sim.scene(), kFragmentField))
+      bf.fields.push_back({kFragmentField,
+                           "1",
+                           "connected piece of its body, 0 the heaviest",
+                           1,
+                           {},
+                           fragment_numbers(sim, static_cast<int>(b))});
     out.bodies.push_back(std::move(bf));
   }
   return out;
 }
 
-std::vector<Quantity> history_row(const Simulation& sim, const std::vector<double>& measures) {
+std::vector<Quantity> history_row(const Simulation& sim) {
   const Audit& a = sim.audit();
   const Totals t = sim.totals();
   std::vector<Quantity> row;
@@ -157,6 +166,8 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
   add(row, "transfer_loss", "J", a.transfer_in + a.transfer_out);
   add(row, "time_centring", "J", a.time_centring);
   add(row, "wall_work", "J", a.wall_work);
+  add(row, "contact_work", "J", a.contact_work);
+  add(row, "friction_work", "J", a.friction_work);
   add(row, "external_work", "J", a.external_work);
   add(row, "removed_energy", "J", a.removed_energy);
   add(row, "energy_residual", "J", a.residual(t.kinetic, t.internal));
@@ -173,15 +184,18 @@ std::vector<Quantity> history_row(const Simulation& sim, const std::vector<doubl
   add(row, "removed_points", "1", a.removed_points);
   add(row, "removed_mass", "kg", a.removed_mass);
   add(row, "wall_columns", "1", a.wall_columns);
+  add(row, "contact_pairs", "1", a.contact_pairs);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
     add(row, sim.bodies()[b]->name() + ".kinetic_energy", "J", body.kinetic);
     for (int k = 0; k < dimension(frame); ++k)
       add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)},
           "m/s", body.mass > 0 ? body.momentum[static_cast<std::size_t>(k)] / body.mass : 0.0);
+    const RigidBody* rigid = sim.rigid().find(static_cast<int>(b));
+    for (int k = 0; rigid && k < dimension(frame); ++k)
+      add(row, sim.bodies()[b]->name() + ".contact_impulse_" + std::string{axis_name(frame, k)},
+          "N s", rigid->received()[k]);
   }
-  for (std::size_t i = 0; i < measures.size(); ++i)
-    add(row, sim.scene().measures[i].name, measure_unit(sim.scene().measures[i]), measures[i]);
   return row;
 }
 

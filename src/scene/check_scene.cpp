@@ -175,6 +175,7 @@ void check_scene(Reading& reading) {
   check_method(reading);
   check_reference(reading);
   check_contact(reading);
+  check_rigid(reading);
   double points = 0;
   std::vector<bool> used(scene.materials.size(), false);
   for (const BodyOptions& body : scene.bodies) {

@@ -136,6 +136,8 @@ Node read_body(const Node& node, Reading& reading) {
   } else {
     block.record("velocity", vector_node(reading.scene.frame, Triple{}));
   }
+  if (const Node* rigid = block.find("rigid"))
+    block.record("rigid", read_rigid(*rigid, body, reading));
   body.thin_allowed =
       block.choice<bool>("thin", {{"refused", false}, {"allowed", true}}, body.thin_allowed);
   block.record("points", read_points(block.find("points"), block, body.points, reading));

@@ -215,7 +215,15 @@ void check_heating(const MaterialOptions& material, Block& block) {
              " K, or c_v: " + rounded(*heat / T) + " J/(kg K)");
 }
 
-void check_combination(const MaterialOptions& material, Block& block, Reading& reading) {
+/// A block of density alone is what a rigid body needs.
+bool holds_no_law(const MaterialOptions& m) {
+  return !m.eos && !m.strength && !m.damage && !m.viscosity && !m.heating && !m.spall_strength &&
+         m.rate == Rate::truesdell;
+}
+
+void check_combination(MaterialOptions& material, Block& block, Reading& reading) {
+  material.bare = holds_no_law(material);
+  if (material.bare) return;
   const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
   if (strength && strength->whole_stress && material.eos) {
     block.fail("strength " + strength->name + " gives the pressure too: remove eos");

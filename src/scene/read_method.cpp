@@ -159,6 +159,7 @@ const std::vector<FieldName>& known_fields() {
                                     &field::GridVelocity::info};
     std::vector<FieldName> names;
     for (const FieldInfo* info : all) names.push_back({info->name, info->unit});
+    names.push_back({kFragmentField, "1"});
     return names;
   }();
   return fields;

@@ -45,6 +45,9 @@ std::optional<MaterialOptions> choose_material(Block& point, Reading& reading) {
 
 /// Only equations of state have a Hugoniot.
 void check_combination(const PointScene& out, Block& point) {
+  if (out.material.bare)
+    point.fail("material " + quote(out.material.name) +
+               " holds no law: give it an eos and a strength");
   const bool shocked =
       out.path.kind == PathKind::hugoniot || out.path.kind == PathKind::release_isentrope;
   if (shocked && !out.material.eos) {

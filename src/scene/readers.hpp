@@ -29,6 +29,10 @@ Node read_method(const Node* node, Reading& reading);
 Node read_output(const Node* node, Reading& reading);
 Node read_materials(const Node* node, Reading& reading);
 Node read_bodies(const Node* node, Reading& reading);
+/// `rigid:` of a body: `free`, or `{velocity: [..]}` at all times. Returns the resolved key.
+Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
+/// Materials without laws, and rigid bodies without contact; after all blocks.
+void check_rigid(Reading& reading);
 Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies
 Node read_measures(const Node* node, Reading& reading);
 Node read_references(const Node* node, Reading& reading);  ///< after read_measures

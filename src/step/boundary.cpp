@@ -56,6 +56,10 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane, int side) const {
          ++i)  // ghost, plane or inner node in this block
       if (i >= start && i < start + edge) block.at_boundary = true;
     if (plane_index < start || plane_index >= start + edge) continue;
+    const auto field = static_cast<std::size_t>(block.field);
+    const bool acts = plane.condition->kind == BoundaryKind::wall ||
+                      plane.condition->kind == BoundaryKind::velocity;
+    if (acts && field < rigid_.size() && rigid_[field]) continue;
     for (int n = 0; n < kBlockNodes; ++n) {
       std::array<int, 3> index{};
       for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)

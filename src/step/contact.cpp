@@ -17,8 +17,8 @@ namespace {
 // the unevenness of the lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kValley = 0.03;
 constexpr double kSteeper = 10;
-constexpr int kHalo = 2, kSweeps = 3, kMostPairs = 8;
-constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
+constexpr int kHalo = 2, kSweeps = 3, kMostContacts = 64;  // at a node
+constexpr int kMass = 3, kChange = 4, kVolume = 7;         // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
@@ -82,7 +82,7 @@ void ContactSet::relink(const BlockGrid& grid) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
-      groups_.push_back({n, static_cast<int>(end - n), {}, {}});
+      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}});
     }
     n = end;
   }
@@ -90,13 +90,17 @@ void ContactSet::relink(const BlockGrid& grid) {
   scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
 }
 
-ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
+ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                              RigidBodies& rigid, bool projection) {
   for_each(groups_.size(), [&](std::size_t g) {
-    results_[g] =
-        touch_group(grid, bodies, groups_[g], scratch_[static_cast<unsigned>(thread_index())]);
+    find_contacts(grid, bodies, groups_[g], scratch_[static_cast<unsigned>(thread_index())], rigid);
   });
+  if (rigid.any()) foretell(grid, rigid);
+  for_each(groups_.size(),
+           [&](std::size_t g) { results_[g] = exchange_group(grid, groups_[g], rigid); });
   ContactWork sum;
   for (const ContactWork& r : results_) sum.add(r);
+  if (!projection) hand_over(rigid, sum);
   return sum;
 }
 
@@ -249,10 +253,10 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
 
 /// Normal from the points; on a plane of symmetry it keeps no component across.
 void ContactSet::refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                        const Group& group, int n, Contact& contact) const {
+                        const Group& group, Contact& contact) const {
   const NodeBlock& home = grid.node_blocks[group.first];
   std::array<double, 3> at{};
-  for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_) {
+  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
     const auto i = static_cast<unsigned>(a);
     at[i] = geometry_.min[i] + (home.key.i[i] * edge_ + rest % edge_ - 1) * geometry_.h;
   }
@@ -269,51 +273,62 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<BodyKernelData>
   for (unsigned a = 0; a < 3 && length > 0; ++a) contact.normal[a] = normal[a] / std::sqrt(length);
 }
 
-/// Pairs that touch at node n of the block; returns their number.
-int ContactSet::find_contacts(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                              Group& group, Scratch& scratch, int n, Contact* contacts) const {
-  const auto mass = [&](int f) {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)]
-        .nodes[kNodeDoubles * n + kMass];
+void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                               Group& group, Scratch& scratch, const RigidBodies& rigid) const {
+  group.contacts.clear();
+  group.shares.clear();
+  bool filled = false;
+  const auto block = [&](int f) -> const NodeBlock& {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
   };
-  int count = 0, at = 0;
-  for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
-    at += (rest % edge_ + kHalo) * stride_[a];
-  for (int a = 0; a < group.fields; ++a)
-    for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
-      if (!(mass(b) > 0) || count == kMostPairs) continue;
-      if (group.sources.empty()) link(grid, group);
-      if (!scratch.filled) fill(grid, group, scratch);
-      scratch.filled = true;
-      contacts[count] = {a, b, {}};
-      if (!find_contact(scratch, group.fields, at, contacts[count])) continue;
-      if (options_.normal == ContactNormal::logistic_regression)
-        refine(grid, bodies, group, n, contacts[count]);
-      ++count;
-    }
-  return count;
+  for (int n = 0; n < kBlockNodes; ++n) {
+    const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
+    int count = 0, at = 0;
+    for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
+      at += (rest % edge_ + kHalo) * stride_[a];
+    for (int a = 0; a < group.fields; ++a)
+      for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
+        if (!(mass(b) > 0) || count == kMostContacts) continue;
+        if (rigid.find(block(a).field) && rigid.find(block(b).field)) continue;
+        if (group.sources.empty()) link(grid, group);
+        if (!filled) fill(grid, group, scratch);
+        filled = true;
+        Contact contact{n, a, b, {}};
+        if (!find_contact(scratch, group.fields, at, contact)) continue;
+        if (options_.normal == ContactNormal::logistic_regression)
+          refine(grid, bodies, group, contact);
+        group.contacts.push_back(contact);
+        ++count;
+      }
+  }
 }
 
-ContactWork ContactSet::touch_group(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                                    Group& group, Scratch& scratch) const {
+ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
+                                       const RigidBodies& rigid) const {
   ContactWork sum;
-  scratch.filled = false;
   const auto block = [&](int f) -> NodeBlock& {
     return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
   };
-  Contact contacts[kMostPairs];
-  for (int n = 0; n < kBlockNodes; ++n) {
-    const int count = find_contacts(grid, bodies, group, scratch, n, contacts);
+  const auto touch = [&](const Contact& c) {
+    const bool a_is_rigid = rigid.find(block(c.a).field) != nullptr;
+    if (a_is_rigid || rigid.find(block(c.b).field)) {
+      const Strike strike = strike_of(grid, group, c, a_is_rigid);
+      return exchange(strike, twists_[static_cast<std::size_t>(strike.body)],
+                      share_of(group, strike.body), sum);
+    }
+    exchange(block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
+             options_.friction_of(block(c.a).field, block(c.b).field), sum);
+  };
+  for (std::size_t first = 0, end = 0; first < group.contacts.size(); first = end) {
+    while (end < group.contacts.size() && group.contacts[end].node == group.contacts[first].node)
+      ++end;
     const double before = sum.nodes;
-    for (int sweep = 0; sweep < (count > 1 ? kSweeps : 1); ++sweep)
-      for (int c = 0; c < count; ++c) {
-        NodeBlock &a = block(contacts[c].a), &b = block(contacts[c].b);
-        exchange(a.nodes + kNodeDoubles * n, b.nodes + kNodeDoubles * n, contacts[c],
-                 options_.friction_of(a.field, b.field), sum);
-      }
+    for (int sweep = 0; sweep < (end - first > 1 ? kSweeps : 1); ++sweep)
+      for (std::size_t c = first; c < end; ++c) touch(group.contacts[c]);
     if (sum.nodes == before) continue;
-    for (int c = 0; c < count; ++c)
-      for (const int f : {contacts[c].a, contacts[c].b}) block(f).still = block(f).inert = false;
+    for (std::size_t c = first; c < end; ++c)
+      for (const int f : {group.contacts[c].a, group.contacts[c].b})
+        block(f).still = block(f).inert = false;
   }
   return sum;
 }

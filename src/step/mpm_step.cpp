@@ -30,12 +30,13 @@ double alpha_of(const MethodOptions& m, double tflip) {
 }  // namespace
 
 MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
-                 ContactSet& contact, const Kernels& kernels, const Kernels& plain,
-                 const std::vector<BodyKernelData>& bodies)
+                 ContactSet& contact, RigidBodies& rigid, const Kernels& kernels,
+                 const Kernels& plain, const std::vector<BodyKernelData>& bodies)
     : method_{method},
       grid_{grid},
       boundary_{boundary},
       contact_{contact},
+      rigid_{rigid},
       kernels_{kernels},
       plain_{plain},
       bodies_{bodies},
@@ -66,9 +67,9 @@ double MpmStep::advance(double dt) {
   return dt;
 }
 
-MpmStep::Constraints MpmStep::constrain() {
+MpmStep::Constraints MpmStep::constrain(bool projection) {
   Constraints out;
-  if (contact_.active()) out.contact = contact_.apply(grid_, bodies_);
+  if (contact_.active()) out.contact = contact_.apply(grid_, bodies_, rigid_, projection);
   lap(Phase::contact);
   out.walls = boundary_.constrain();
   boundary_.mirror();
@@ -79,6 +80,8 @@ MpmStep::Constraints MpmStep::constrain() {
 void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
   audit_.book_step(energies, {c.walls.work, c.walls.force_correction},
                    {c.contact.work, c.contact.force_correction});
+  audit_.contact_work -= c.contact.driven;
+  audit_.external_work += c.contact.driven;
   audit_.friction_work += c.contact.friction;
   audit_.contact_pairs = c.contact.nodes;
   for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
@@ -89,7 +92,8 @@ double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
-  const GridEnergy grid = momentum(dt, 1);
+  GridEnergy grid = momentum(dt, 1);
+  begin_rigid(dt, grid);
   Constraints constraints = constrain();
   if (method_.transfer == Transfer::xpic) {
     const std::array<double, 3> impulse = filter_velocity();
@@ -104,7 +108,8 @@ double MpmStep::step_usl(double dt) {
 double MpmStep::step_musl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
-  const GridEnergy grid = momentum(dt, 1);
+  GridEnergy grid = momentum(dt, 1);
+  begin_rigid(dt, grid);
   const Constraints constraints = constrain();
   grid_to_particles(GatherPart::velocity_only, dt);
 
@@ -113,7 +118,7 @@ double MpmStep::step_musl(double dt) {
   // need their L.
   particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
-  const Constraints repeated = constrain();
+  const Constraints repeated = constrain(true);
   grid_to_particles(GatherPart::strain_move, dt);
   audit_.transfer_out +=
       grid.after + constraints.work() - again.before;  // the detour over the points
@@ -127,12 +132,16 @@ double MpmStep::step_musl(double dt) {
 double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
-  momentum(dt, 0);
-  constrain();
+  GridEnergy grid = momentum(dt, 0);
+  begin_rigid(dt, grid);
+  constrain(true);
   grid_to_particles(GatherPart::strain_only, dt);
+  audit_.step_external = 0;
+  rigid_.rewind();
 
   particles_to_grid(kernels_, bodies_, dt);
-  const GridEnergy grid = momentum(dt, 1);
+  grid = momentum(dt, 1);
+  begin_rigid(dt, grid);
   const Constraints constraints = constrain();
   grid_to_particles(GatherPart::velocity_move, dt);
   book({kinetic, internal, grid.before, grid.after}, constraints);
@@ -211,8 +220,9 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
     halve_until_safe(dt, max_change);
   lap(Phase::boundary);
-  GridEnergy energy{0, 0};
+  GridEnergy energy{rigid_.kinetic(), rigid_.kinetic()};
   for (const NodeBlock& block : grid_.node_blocks) {
+    if (rigid_.any() && rigid_.find(block.field)) continue;
     energy.before += block.sums.kinetic_before;
     energy.after += block.sums.kinetic_after;
   }
@@ -239,51 +249,22 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   }
 }
 
-// Returns the impulse of walls: they act on each term S+ S dv(l), which enters with a minus sign [N
-// s].
-std::array<double, 3> MpmStep::filter_velocity() {
-  // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
-  // (2017), FMPM form.
-  const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
-  const std::size_t total = grid_.node_blocks.size() * block_doubles;
-  filtered_.reserve(2 * total);
-  double* sum = filtered_.data();
-  double* increment = sum + total;
-  std::array<double, 3> impulse{};
-  if (total == 0) return impulse;
-  double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
-  std::copy(nodes, nodes + total, sum);
-  for (int order = 1; order < method_.xpic_order; ++order) {
-    std::copy(nodes, nodes + total, increment);
-    grid_to_particles(GatherPart::keep_only, 0);
-    particles_to_grid(plain_, velocity_from_kept_, 0);
-    double unused = 0;
-    momentum(unused, 0);
-    const BoundaryWork term = boundary_.constrain();
-    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a];
-    boundary_.mirror();
-    lap(Phase::boundary);
-    for (std::size_t i = 0; i < total; i += kNodeDoubles)
-      for (std::size_t a = i; a < i + 3; ++a) {
-        nodes[a] = increment[a] - nodes[a];
-        sum[a] += nodes[a];
-      }
-  }
-  std::copy(sum, sum + total, nodes);
-  return impulse;
-}
-
 void MpmStep::grid_to_particles(GatherPart part, double dt) {
   SweepSettings s = settings(dt);
   s.may_sleep = may_sleep(part);
   const bool ahead = may_scatter_ahead(part);
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
+  if (moves && rigid_.any()) rigid_.finish(grid_, dt);
   for_each(grid_.patches.size(), [&](std::size_t p) {
     const SweepScratch w = scratch();
-    gather(p, part, s, w);
     Patch& patch = grid_.patches[p];
     patch.tile_ahead = false;
+    if (rigid_.any() && rigid_.find(patch.body)) {
+      if (moves) move_rigid(p, w);
+      return;
+    }
+    gather(p, part, s, w);
     if (!moves || patch.tile_current || patch.result.fault.kind != FaultKind::none) return;
     const int before = patch.count;
     removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_,
@@ -298,6 +279,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   watch_.move(static_cast<std::size_t>(Phase::gather), static_cast<std::size_t>(Phase::scatter),
               scattering / static_cast<double>(memory_.size()));
   throw_faults();
+  if (moves && rigid_.any()) rigid_.throw_collisions(grid_);
   if (part != GatherPart::keep_only)
     combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
 }
@@ -323,7 +305,10 @@ void MpmStep::throw_faults() const {
 
 void MpmStep::migrate() {
   for (const Removed& r : removed_) audit_.book_removed(r);
+  const std::vector<int> losing = rigid_losses();
   bool changed = deliver(grid_, bodies_);
+  for (const int b : losing)  // what is left moves on as it did
+    rigid_.find(b)->lose(grid_, bodies_[static_cast<std::size_t>(b)].columns);
   if (method_.reference == Reference::adaptive) changed = renew_references() || changed;
   if (changed)
     relink();

@@ -13,6 +13,14 @@ CASES = {
     "axisymmetric": ["time.end=8 us", "output.frames=2 us"],
     "adaptive": ["method.reference={adaptive: {strain: 0.1}}", "time.end=6 us", "output.frames=2 us"],
     "3d": ["frame=3d", "grid.cell=0.762 mm", "time.end=2 us", "output.frames=0.5 us"],
+    # What measures remember from row to row must survive a restart.
+    "measures": ["time.end=6 us", "output.frames=2 us", "output.fields=[fragment]",
+                 "measures.slows={kind: deceleration, body: rod, axis: z}",
+                 "measures.peak={kind: deceleration, body: rod, axis: z, keep: largest}",
+                 "measures.settled={kind: settling_time, body: rod, axis: z}",
+                 "measures.shortest={kind: extent, body: rod, axis: z, keep: smallest, piece: largest}",
+                 "measures.pieces={kind: fragments, body: rod, history: true}",
+                 "measures.lost={kind: mass_lost, body: rod}"],
 }
 
 

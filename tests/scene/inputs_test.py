@@ -15,6 +15,7 @@ SCENES = {
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
+    "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
     "taylor_copper": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "two_discs": {"frames": ("plane_strain",), "end": "0.1", "coarse": None},
 }

@@ -12,6 +12,7 @@
 #include "krater/points/layout.hpp"
 #include "krater/scene/scene.hpp"
 #include "krater/step/kernels.hpp"
+#include "krater/step/rigid.hpp"
 
 namespace krater {
 
@@ -45,6 +46,7 @@ class Body {
 
  private:
   void declare_method_columns(const Scene& scene);
+  void declare_rigid_columns(const Scene& scene);
   void examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds);
   void add_stages(const StageFactory& factory);
 
@@ -59,6 +61,11 @@ class Body {
   bool degrades_ = false;
   double q_lin_ = 0, q_quad_ = 0, sound_speed_ = 0;
 };
+
+/// How a rigid body of the scene may move: planes of symmetry that cut it, and the axis, hold it.
+RigidOptions rigid_options(const Scene& scene, const Body& body, int index);
+/// "moves along x, z; turns about y", for `krater check`.
+std::string describe_motion(Frame frame, const RigidOptions& options);
 
 /// The domain of a scene as a box in grid axes.
 Box domain_box(const Scene& scene);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/measures.hpp
-/// Numbers to compare with an experiment, from the points of one body at one time.
+/// Numbers to compare with an experiment, from the points of bodies at one time. The kinds are
+/// those of scene/measures.hpp; each has one function here.
 ///
 /// - extent, max, min: of the body's surface (volume_fraction.hpp) along a grid axis, over all node
 ///   lines.
@@ -9,9 +10,19 @@
 ///   axis. Axisymmetric: the outermost r. 3d: the same after mapping each point to (r, z) with
 ///   A_p = V_p / (2 pi r_p c); c, the share of the revolution in the model, is 1, 1/2 or 1/4 by the
 ///   symmetry planes the body touches; elsewhere the axis is the centre of the section. Plane
-///   strain: the width along x, doubled at a symmetry plane.
-/// - mean_velocity: sum m v / sum m along a grid axis.
-/// - mean, maximum: of a scalar field, sum m q / sum m, largest q.
+///   strain: the width along x, doubled at a symmetry plane. largest_diameter: the largest of those
+///   at heights a apart from end to end.
+/// - mean_velocity, momentum, kinetic_energy (without the affine part of the velocity field),
+///   internal_energy, mass, failed_mass, mean, maximum: sums over the points.
+/// - removed_mass: mass at the start less mass now; mass_lost: removed and failed.
+/// - deceleration, settling_time: of the mean velocity's history (measure_series.hpp).
+/// - penetration_depth: from the target's face at the start (its outermost place on that side) to
+///   the body's surface, into the target.
+/// - crater_depth, crater_diameter, hole_diameter: app/openings.hpp.
+/// - debris_extent: between the quantiles (1 -+ s)/2 of the mass along an axis, each point reaching
+///   half its initial spacing. Along r, and across a symmetry plane, twice the quantile s of the
+///   distance: the cloud and its mirror image. Points, not surface: a cloud fills no cell.
+/// - fragments: pieces (app/pieces.hpp) of at least `least_points` points.
 ///
 /// Height of a diameter. Points in a band about z0 are weighted with the B-spline K((z_p - z0) /
 /// b), b = 1.5 a (a is twice the initial point spacing), and the edge at z0 is that of the straight
@@ -44,18 +55,20 @@
 #include <vector>
 
 #include "krater/geometry/frame.hpp"
-#include "krater/scene/scene.hpp"
+#include "krater/scene/measures.hpp"
 #include "krater/step/options.hpp"
 
 namespace krater {
 
-/// The points of one body; vectors along the grid axes, masses as in field::Mass.
+/// The points of one or several bodies; vectors along the grid axes, masses as in field::Mass.
 struct BodyPoints {
   std::vector<Triple> x, v;
   std::vector<double> mass, density;
   std::map<std::string, std::vector<double>> scalars;
+  std::vector<int> body;  ///< index in the scene; empty: one body
 
   std::size_t count() const { return x.size(); }
+  int body_of(std::size_t p) const { return body.empty() ? 0 : body[p]; }
 };
 
 struct MeasureContext {
@@ -67,8 +80,23 @@ struct MeasureContext {
   int points_per_direction = 2;
 };
 
-/// Value in SI. Throws InputError for a field that the points do not carry.
-double evaluate(const MeasureOptions& measure, const BodyPoints& body,
-                const MeasureContext& context);
+/// What a measure remembers of the start of the scene.
+struct MeasureStart {
+  double mass = 0;  ///< of its bodies [kg]
+  double face = 0;  ///< position of the face along its axis [m]
+};
+
+/// The points that a measure asks for.
+BodyPoints select(const MeasureSelection& selection, const BodyPoints& points,
+                  const MeasureContext& context);
+
+/// Position of a face on the surface of the points [m].
+double face_position(const MeasureOptions& measure, const BodyPoints& points,
+                     const MeasureContext& context);
+
+/// Value in SI of points already selected; of deceleration and settling_time the mean velocity.
+/// Not a number: nothing to measure. Throws InputError for a field that the points do not carry.
+double evaluate(const MeasureOptions& measure, const BodyPoints& points,
+                const MeasureContext& context, const MeasureStart& start = {});
 
 }  // namespace krater

@@ -53,6 +53,7 @@ class Simulation {
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
   const BlockGrid& grid() const { return grid_; }
   BlockGrid& grid() { return grid_; }
+  const RigidBodies& rigid() const { return rigid_; }
   const MpmStep& stepper() const { return *step_; }
   const Audit& audit() const { return step_->audit(); }
   const GridGeometry& geometry() const { return geometry_; }
@@ -69,6 +70,9 @@ class Simulation {
 
  private:
   void place_points();
+  void place_rigid_bodies();
+  void restore_rigid(const std::vector<double>& state);
+  void load_rigid_bodies();  ///< body force on them
   void choose_first_step();
   void apply_body_force();
   bool walls_act_on_points() const;
@@ -86,6 +90,7 @@ class Simulation {
   BlockGrid grid_;
   BoundarySet boundary_;
   ContactSet contact_;
+  RigidBodies rigid_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
   double time_ = 0, dt_ = 0, dt_free_ = 0,

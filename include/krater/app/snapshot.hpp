@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/snapshot.hpp
-/// The simulation as arrays for people: fields in order of the points' ids, history rows, measures,
-/// summary.
+/// The simulation as arrays for people: fields in order of the points' ids, history rows, audit.
 #include "krater/app/simulation.hpp"
 #include "krater/output/results.hpp"
 
@@ -12,17 +11,10 @@ namespace krater {
 /// only on request.
 OutputFrame make_frame(const Simulation& sim, int number);
 
-/// One value per measure of the scene, in its order [SI].
-std::vector<double> evaluate_measures(const Simulation& sim);
-
-/// Energies, work, momentum, events, bodies and measures at this moment.
-std::vector<Quantity> history_row(const Simulation& sim, const std::vector<double>& measures);
+/// Energies, work, momentum, events and bodies at this moment.
+std::vector<Quantity> history_row(const Simulation& sim);
 
 /// The audit (theory 11) as JSON.
 Json audit_json(const Simulation& sim);
-/// Measures with unit, reference and difference.
-Json measures_json(const Simulation& sim, const std::vector<double>& values);
-/// SI unit of a measure.
-std::string measure_unit(const MeasureOptions& measure);
 
 }  // namespace krater

@@ -97,7 +97,6 @@ class VolumeFraction {
   /// they are averaged with the lines beside them, which costs a/4 . a/R on a surface of radius R.
   double outermost(int axis, int side, const Walls& walls) const;
 
- private:
   /// The edges of all lines along an axis, as positions.
   struct Surface {
     std::array<int, 3> lines{};  ///< nodes, 1 along the axis
@@ -108,9 +107,12 @@ class VolumeFraction {
     }
   };
 
+  /// The outermost edges of all lines along `axis`, towards `side`.
+  Surface surface(int axis, int side) const;
+
+ private:
   std::size_t offset(const std::array<int, 3>& i) const;
   std::optional<LineEdge> edge(int axis, int side, std::array<int, 3> node) const;
-  Surface surface(int axis, int side) const;
   double extrapolated(const Surface& surface, const std::array<int, 3>& line,
                       const Walls& walls) const;
   double smoothing(const Surface& surface, const std::array<int, 3>& line,

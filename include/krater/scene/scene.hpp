@@ -14,6 +14,7 @@
 #include "krater/geometry/lattice.hpp"
 #include "krater/geometry/solid.hpp"
 #include "krater/materials/stage.hpp"
+#include "krater/scene/measures.hpp"
 #include "krater/step/options.hpp"
 
 namespace krater {
@@ -49,6 +50,7 @@ struct MaterialOptions {
   DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage
   FailureAction failure = FailureAction::strength_loss;
   std::optional<double> spall_strength;  ///< largest tension carried [Pa]; absent: no limit
+  bool bare = false;                     ///< no law: enough for rigid bodies
   std::vector<std::string> unused;       ///< keys of its card that the scene does not ask for
 };
 
@@ -71,6 +73,8 @@ struct PointOptions {
   std::vector<RefinedZone> zones;
 };
 
+enum class Motion { deformable, prescribed, free };  ///< prescribed, free: of a rigid body
+
 struct BodyOptions {
   std::string name, where;
   int material = -1;                   ///< index in Scene::materials
@@ -78,20 +82,10 @@ struct BodyOptions {
   std::vector<int> wins_over;          ///< bodies that give way where they overlap this one
   bool thin_allowed = false;           ///< may be one cell thick or less
   PointOptions points;
-  std::shared_ptr<const FieldFunction> velocity;  ///< initial velocity; null: at rest
-};
-
-enum class MeasureKind { extent, max, min, diameter, mean_velocity, mean, maximum };
-struct MeasureOptions {
-  std::string name, where;
-  MeasureKind kind = MeasureKind::extent;
-  int body = -1;
-  int axis = -1;             ///< extent, max, min, mean_velocity: grid axis
-  double at = 0;             ///< diameter: position on the last axis [m] ...
-  bool at_from_end = false;  ///< ... counted from the body's lower end at the time of measuring
-  std::string field;         ///< mean, maximum: field name
-  std::optional<double> reference;  ///< SI
-  std::string reference_source;
+  std::shared_ptr<const FieldFunction> velocity;  ///< at the start, prescribed: at all times;
+                                                  ///< null: at rest
+  Motion motion = Motion::deformable;
+  bool rigid() const { return motion != Motion::deformable; }
 };
 
 struct OutputOptions {

@@ -43,6 +43,8 @@ class BoundarySet {
               bool fixed_reference = false)
       : geometry_{geometry}, conditions_{conditions}, fixed_reference_{fixed_reference} {}
 
+  /// Velocity fields that walls and moving planes leave alone (rigid bodies). Before relink().
+  void set_rigid_fields(std::vector<bool> rigid) { rigid_ = std::move(rigid); }
   const BoundaryConditions& conditions() const { return conditions_; }
   /// Find the columns of nodes at each plane and mark their blocks; call after
   /// BlockGrid::rebuild().
@@ -81,6 +83,7 @@ class BoundarySet {
   GridGeometry geometry_;
   BoundaryConditions conditions_;
   bool fixed_reference_;
+  std::vector<bool> rigid_;  ///< by field; beyond the list: no
   std::vector<Plane> planes_;
 };
 

@@ -14,17 +14,26 @@
 /// phi_B); normal and gap are judged there, for in the tail of a body its gradient means nothing.
 /// Normal: n ~ |grad phi_B|^20 grad phi_B - |grad phi_A|^20 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
-/// aside; equal ones are averaged. `normal: logistic_regression` takes n
-/// from the points instead (step/contact_regression.hpp). Touching: a gap is a valley of the total
-/// filling along the grid axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) +
-/// phi(j+1))/2. The volume criterion of numerics A10, sum phi > 1 - tol, is this one where bodies
-/// are wide; at the edge of a punch the filling falls off along the contact, and only the valley
-/// tells a gap from an edge. Three and more fields: pairs in fixed order, three sweeps.
+/// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
+/// (step/contact_regression.hpp). Touching: a gap is a valley of the total filling along the grid
+/// axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) + phi(j+1))/2. The volume
+/// criterion of numerics A10, sum phi > 1 - tol, is this one where bodies are wide; at the edge of
+/// a punch the filling falls off along the contact, and only the valley tells a gap from an edge.
+/// Three and more fields: pairs in fixed order, three sweeps.
+///
+/// Rigid fields (step/rigid.hpp) count as of infinite mass and move with their own velocity at the
+/// node, two of them pass through each other. What a free body receives changes its velocity u in
+/// the same step; the nodes must meet the changed one, or contact with much mass would throw a
+/// light body back with energy that is not there. So u is foretold, implicitly in the impulses:
+///   (1 + M^-1 K) du = M^-1 J(u),  K = sum m A^T P A,  A u = V + omega x r,
+/// P = n n^T where it slides, 1 where it sticks; then the impulses with u + du are exchanged and
+/// summed in fixed order, so that momentum is exact whatever was foretold.
 #include <cstdint>
 #include <vector>
 
 #include "krater/step/boundary.hpp"
 #include "krater/step/kernels.hpp"
+#include "krater/step/rigid.hpp"
 
 namespace krater {
 
@@ -34,9 +43,10 @@ struct ContactWork {
   double force_correction = 0;  ///< change of the work of the nodal forces, part of `work` [J]
   double friction = 0;          ///< work of the tangential impulses, part of `work` [J]
   double nodes = 0;             ///< pairs that pushed
+  double driven = 0;            ///< work of prescribed rigid bodies on others, part of `work` [J]
   void add(const ContactWork& o) {
     work += o.work, force_correction += o.force_correction, friction += o.friction,
-        nodes += o.nodes;
+        nodes += o.nodes, driven += o.driven;
   }
 };
 
@@ -48,25 +58,44 @@ class ContactSet {
   bool active() const { return options_.active; }
   /// Find the blocks that fields share; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
-  /// Change v+ and dv of [v+, m, dv, V] where fields touch. Field k is body k.
-  ContactWork apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
+  /// Change v+ and dv of [v+, m, dv, V] where fields touch, and the velocities of free rigid
+  /// bodies unless the nodes are only those of a projection. Field k is body k.
+  ContactWork apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, RigidBodies& rigid,
+                    bool projection = false);
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
+  struct Contact {
+    int node;  ///< in the block
+    int a, b;  ///< fields of the group
+    std::array<double, 3> normal;
+  };
+  /// What one group does to one rigid body: impulses, or what foretells them.
+  struct RigidShare {
+    int body = -1;
+    RigidImpulse sum;
+    Eigen::Matrix<double, 6, 1> push = Eigen::Matrix<double, 6, 1>::Zero();
+    Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  };
   struct Group {
     std::size_t first;                  ///< of the node blocks with one key ...
     int fields;                         ///< ... one per field
     std::vector<std::int32_t> sources;  ///< per field and padded node: node in memory, -1: none;
                                         ///< linked when two bodies first share a node
     std::vector<double> inverse;        ///< 1/covered volume, per padded node
+    std::vector<Contact> contacts;      ///< of the step, in order of their nodes
+    std::vector<RigidShare> shares;     ///< of the step
   };
   struct Scratch {
     std::vector<double> filling;  ///< per field, padded by two nodes on each side
-    bool filled = false;          ///< with the group at hand
   };
-  struct Contact {
-    int a, b;  ///< fields of the group
-    std::array<double, 3> normal;
+  /// A deformable field's node, struck by a rigid body.
+  struct Strike {
+    double* node;
+    int body;
+    std::array<double, 3> normal;  ///< out of the rigid body
+    std::array<double, 3> place;   ///< of the node [m]
+    double friction;
   };
   struct AxisLink {
     int slot, local;  ///< neighbour 0..2 along the axis, node in it
@@ -76,12 +105,19 @@ class ContactSet {
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
-  ContactWork touch_group(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
-                          Scratch& scratch) const;
-  int find_contacts(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
-                    Scratch& scratch, int n, Contact* contacts) const;
+  void find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
+                     Scratch& scratch, const RigidBodies& rigid) const;
   void refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, const Group& group,
-              int n, Contact& contact) const;
+              Contact& contact) const;
+  ContactWork exchange_group(BlockGrid& grid, Group& group, const RigidBodies& rigid) const;
+  void hand_over(RigidBodies& rigid, ContactWork& sum) const;
+  void foretell(const BlockGrid& grid, RigidBodies& rigid);
+  Strike strike_of(const BlockGrid& grid, const Group& group, const Contact& contact,
+                   bool a_is_rigid) const;
+  void probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const;
+  void exchange(const Strike& strike, const RigidTwist& twist, RigidShare& share,
+                ContactWork& sum) const;
+  static RigidShare& share_of(Group& group, int body);
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
   std::array<double, 3> gradient(const double* phi) const;
@@ -95,6 +131,7 @@ class ContactSet {
   ContactOptions options_;
   int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;
+  std::vector<RigidTwist> twists_;  ///< by body: velocities that nodes meet in this step
   std::vector<Scratch> scratch_;
   std::vector<ContactWork> results_;
 };

@@ -37,8 +37,10 @@ class MpmStep {
   /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
   /// the same kernels without the affine part, for projections of point velocities alone; on a
   /// fixed reference with it, for the present positions of nodes.
+  /// `rigid`: bodies that move as a whole; their points are scattered, never gathered.
   MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, ContactSet& contact,
-          const Kernels& kernels, const Kernels& plain, const std::vector<BodyKernelData>& bodies);
+          RigidBodies& rigid, const Kernels& kernels, const Kernels& plain,
+          const std::vector<BodyKernelData>& bodies);
 
   /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
   /// move material by more than 0.3 cells (checked on the nodes, before a point is touched).
@@ -70,7 +72,11 @@ class MpmStep {
     ContactWork contact;
     double work() const { return walls.work + contact.work; }
   };
-  Constraints constrain();
+  /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
+  Constraints constrain(bool projection = false);
+  void begin_rigid(double dt, GridEnergy& energy);
+  void move_rigid(std::size_t patch, const SweepScratch& w);
+  std::vector<int> rigid_losses() const;
   void book(const Audit::StepEnergies& energies, const Constraints& constraints);
   void halve_until_safe(double& dt, double max_change);
   bool may_sleep(GatherPart part) const;
@@ -97,6 +103,7 @@ class MpmStep {
   BlockGrid& grid_;
   BoundarySet& boundary_;
   ContactSet& contact_;
+  RigidBodies& rigid_;
   const Kernels& kernels_;
   const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;

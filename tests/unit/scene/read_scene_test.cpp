@@ -123,8 +123,11 @@ TEST_SUITE("unit") {
       CAPTURE(file);
       check_fixed_point(read_scene(file), folder);
       const std::string stem = entry.path().stem().string();
-      if (stem == "two_discs" || stem == "ccf_two_bars") continue;  // no axis; square bars
+      // No axis; square bars; a square plate held at two edges.
+      if (stem == "two_discs" || stem == "ccf_two_bars" || stem == "spear_plate") continue;
+      const bool hole = stem == "ccf_plugging" || stem == "hiermaier_al";
       for (Frame frame : all_frames) {
+        if (hole && frame == Frame::plane_strain) continue;  // there a hole is a slot
         CAPTURE(std::string{name(frame)});
         const Scene scene = read_scene(file, {"frame=" + std::string{name(frame)}});
         CHECK(scene.frame == frame);
