@@ -56,7 +56,7 @@ bodies:
   block:
     material: aluminium
     shape: {{box: {{min: [-5 mm, -5 mm, 0], max: [5 mm, 5 mm, 30 mm]}}}}
-    velocity: [2 km/s, 0, -7 km/s]
+    velocity: [3 km/s, 3 km/s, -7 km/s]
 """
 
 
