@@ -196,6 +196,41 @@ def instructions(bench):
     return {"rows": {name: {"instructions": count_instructions(bench, text)} for name, text in cases.items()}}
 
 
+def build_alone(bench, laws):
+    """krater_bench_steps of a copy of the sources whose list of laws holds only `laws`."""
+    copy = bench.folder / "alone"
+    copy.mkdir()
+    shutil.copy(ROOT / "CMakeLists.txt", copy)
+    for name in ("include", "src", "tests", "tools"):
+        shutil.copytree(ROOT / name, copy / name)
+    header = copy / "include" / "krater" / "materials" / "law_list.hpp"
+    text, found = re.subn(r"using AllLaws = LawList<.*?>;", f"using AllLaws = LawList<{', '.join(laws)}>;",
+                          header.read_text(encoding="utf-8"), flags=re.DOTALL)
+    if found != 1:
+        raise SystemExit(f"tools/bench: no list of laws in {header}")
+    header.write_text(text, encoding="utf-8")
+    for command in (["cmake", "-S", copy, "-B", copy / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"],
+                    ["ninja", "-C", copy / "build", "krater_bench_steps"]):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise SystemExit(f"tools/bench: {done.stdout[-2000:]}")
+    return copy / "build" / "krater_bench_steps"
+
+
+def alone(bench):
+    """What the presence of all other laws costs an elastic scene: against a program that has its two laws only."""
+    every, only = bench.steps_program, build_alone(bench, ["Elastic", "LinearEos"])
+    rows = {}
+    for name, program in (("every law in the program", every), ("elastic and linear alone", only)):
+        bench.steps_program = program
+        rows[name] = dict(entry([bench.steps(scenes.elastic("3d", 2 * scenes.H))]),
+                          instructions=count_instructions(bench, scenes.elastic("3d", 2 * scenes.H)))
+    bench.steps_program = every
+    first, second = rows.values()
+    return {"rows": rows, "instructions_ratio": first["instructions"] / second["instructions"],
+            "bytes_ratio": first["record_bytes"] / second["record_bytes"], "same_bits": first["hash"] == second["hash"]}
+
+
 def effect_scenes(cell):
     rods = {name: scenes.taylor("3d", cell, **change) for name, change in scenes.EFFECTS.items()}
     return {**rods, "one effect: elastic rod": scenes.elastic("3d", cell)}
@@ -256,5 +291,5 @@ def wait(bench):
     return {"rows": rows, "peers_seconds_3d": PEERS}
 
 
-SUITE = {"scenes": scene_suite, "memory": memory, "effects": effects, "leavers": leavers, "dormant": dormant,
+SUITE = {"scenes": scene_suite, "memory": memory, "effects": effects, "alone": alone, "leavers": leavers, "dormant": dormant,
          "wait": wait, "instructions": instructions}
