@@ -123,10 +123,9 @@ class PlasticReturnStage final : public FlowingStage<Law> {
     const Trial<Pack> a = this->trial(batch, g), b = this->trial(batch, h);
     const auto eps = view(batch, this->eps_);
     const auto G = view(batch, this->shear_);
-    const PlasticStep<PackPair> step =
-        radial_return(curve_at(this->law_, paired(this->start(batch, g), this->start(batch, h))),
-                      PackPair{a.q, b.q}, PackPair{eps(g), eps(h)}, PackPair{G(g), G(h)},
-                      PackPair{a.strain, b.strain}, batch.dt);
+    const PlasticStep<PackPair> step = plastic_step(
+        this->law_, paired(this->start(batch, g), this->start(batch, h)), PackPair{a.q, b.q},
+        PackPair{eps(g), eps(h)}, PackPair{G(g), G(h)}, PackPair{a.strain, b.strain}, batch.dt);
     this->finish(batch, g, a, {step.d.a, step.stress.a, step.yielding.a, step.unconverged.a});
     if (h != g)
       this->finish(batch, h, b, {step.d.b, step.stress.b, step.yielding.b, step.unconverged.b});

@@ -51,8 +51,7 @@ KRATER_FORCE_INLINE DeviatorUpdate<Real> update_deviator(const Law& law, const S
                                                          double dt) {
   const auto G = shear_at(law, start, G0);
   const Trial<Real> trial = trial_step(s, dtL, dE, G);
-  const PlasticStep<Real> step =
-      radial_return(curve_at(law, start), trial.q, eps, G, trial.strain, dt);
+  const PlasticStep<Real> step = plastic_step(law, start, trial.q, eps, G, trial.strain, dt);
   return {returned(trial, step), step};
 }
 
@@ -123,10 +122,9 @@ class StrengthStage final : public Stage {
     const Trial<Pack> trial_g = trial(batch, g, G_g);
     const Trial<Pack> trial_h = trial(batch, h, G_h);
     const auto eps = view(batch, eps_);
-    const PlasticStep<PackPair> step =
-        radial_return(curve_at(law_, paired(start_g, start_h)), PackPair{trial_g.q, trial_h.q},
-                      PackPair{eps(g), eps(h)}, both(G_g, G_h),
-                      PackPair{trial_g.strain, trial_h.strain}, batch.dt);
+    const PlasticStep<PackPair> step = plastic_step(
+        law_, paired(start_g, start_h), PackPair{trial_g.q, trial_h.q}, PackPair{eps(g), eps(h)},
+        both(G_g, G_h), PackPair{trial_g.strain, trial_h.strain}, batch.dt);
     yield(batch, g, trial_g, G_g, {step.d.a, step.stress.a, step.yielding.a, step.unconverged.a});
     if (h != g)
       yield(batch, h, trial_h, G_h, {step.d.b, step.stress.b, step.yielding.b, step.unconverged.b});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "krater/materials/strength/johnson_cook.hpp"
 #include "krater/materials/strength/radial_return.hpp"
 #include "krater/materials/strength/steinberg_guinan.hpp"
 #include "krater/materials/strength/voce.hpp"
@@ -71,9 +72,46 @@ void check_residuals(const auto& law, unsigned seed) {
   }
 }
 
+/// The bound that spares the evaluation of a law: below it, nearly to the melting point, and a NaN
+/// gets through.
+template <class Law>
+void check_bound(const Law& law, double T_ref, double T_melt, unsigned seed) {
+  std::mt19937 random{seed};
+  std::uniform_real_distribution<double> unit;
+  for (int i = 0; i < 100000; ++i) {
+    const double eps = unit(random) < 0.2 ? 0.0 : log_uniform(random, 1e-12, 10.0);
+    const double part = log_uniform(random, 1e-14, 1.0);
+    const StartState<double> start{unit(random) < 0.5 ? T_ref + part * (T_melt - T_ref)
+                                                      : T_melt - part * (T_melt - T_ref)};
+    const double still = law.at(start.temperature).hardening(eps).stress;
+    REQUIRE(law.least_yield(eps, start.temperature) <= still);
+    const double q = still * (0.2 + 1.2 * unit(random)), dt = 1e-8;
+    const auto a = plastic_step(law, start, q, eps, G, 1e-4, dt);
+    const auto b = radial_return(law.at(start.temperature), q, eps, G, 1e-4, dt);
+    REQUIRE(a.d == b.d);
+    REQUIRE(a.yielding == b.yielding);
+    if (b.yielding) REQUIRE(a.stress == b.stress);
+  }
+  CHECK(law.least_yield(0.0, T_ref) > 0.6 * law.at(T_ref).hardening(0.0).stress);
+  const double nan = std::nan("");
+  CHECK(plastic_step(law, StartState<double>{nan}, 1e6, 0.1, G, 1e-4, 1e-8).unconverged);
+  CHECK(plastic_step(law, StartState<double>{T_ref}, nan, 0.1, G, 1e-4, 1e-8).unconverged);
+  CHECK(plastic_step(law, StartState<double>{T_ref}, 1e6, nan, G, 1e-4, 1e-8).unconverged);
+}
+
 }  // namespace
 
 TEST_SUITE("unit") {
+  TEST_CASE("least yield: a bound for every exponent, and the same step with it and without") {
+    for (const double n : {0.26, 1.0, 1.4})
+      for (const double m : {0.7, 1.0, 1.09, 2.0}) {
+        const double values[] = {90e6, 292e6, n, 0.025, 1.0, m, 294.0, 1356.0};
+        check_bound(make_law<JohnsonCook>(values, kCopper), 294.0, 1356.0, 23);
+      }
+    check_bound(voce<Voce>(), 294.0, 1356.0, 29);
+    check_bound(voce<VoceLog>(), 294.0, 1356.0, 31);
+  }
+
   TEST_CASE("Zerilli-Armstrong: flow stress of copper and iron at a strain, rate and temperature") {
     // 0.3, 1e3 /s, 300 K, worked out apart from the code.
     CHECK(flow_at(za_copper().at(300.0), 0.3, 1e3).stress ==

@@ -10,6 +10,10 @@
 ///   Flow<Real> flow(Hardening, Real eps, Real rate) const             for eps > 0
 ///   MaskOf<Real> smooth_between(Real rate0, Real rate1) const         no kink in between
 ///   MaskOf<Real> smooth_between_strains(Real eps0, Real eps1) const   the same in eps (optional)
+/// A law may also have
+///   Real least_yield(Real eps, Real temperature) const
+/// never above sigma_Y(eps, 0, T) and without exp or log: where the trial stays below it in a whole
+/// lane group, the law need not be evaluated. A NaN must pass through it.
 /// A law whose shear modulus varies has `Real shear_modulus(Real T, Real p, Real x) const`. Both
 /// see the state at the start of the step.
 /// The curvature in the rate is taken as at most d_rate/rate, which holds for logarithms and for

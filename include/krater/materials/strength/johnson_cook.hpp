@@ -77,6 +77,13 @@ struct JohnsonCook {
     }
   };
 
+  /// eps^n >= min(eps, 1) for n <= 1.
+  template <class Real>
+  KRATER_FORCE_INLINE Real least_yield(Real eps, Real temperature) const {
+    const Real hardening = (n <= 1.0 ? (1.0 - 1e-13) * B : 0.0) * min(Real(1.0), eps);
+    return (A + hardening) * least_thermal_factor(temperature, T_ref, per_range, m);
+  }
+
   template <class Real>
   KRATER_FORCE_INLINE Curve<Real> at(Real temperature) const {
     return {*this, thermal_factor(temperature, T_ref, per_range, m)};

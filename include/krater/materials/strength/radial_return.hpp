@@ -117,6 +117,19 @@ KRATER_FORCE_INLINE PlasticStep<Real> radial_return(const Curve& curve, Real q_t
   return {d, stress, yielding, active};
 }
 
+/// The same from a law and the state at the start of the step. Where all trials stay below the
+/// law's cheap bound (flow.hpp) nothing more is computed: such steps have no use for `stress`.
+template <class Real, class Law, class Modulus>
+KRATER_FORCE_INLINE PlasticStep<Real> plastic_step(const Law& law, const StartState<Real>& start,
+                                                   Real q_trial, Real eps, Modulus G, Real strain,
+                                                   double dt) {
+  if constexpr (requires { law.least_yield(eps, start.temperature); }) {
+    const MaskOf<Real> may_yield = !(q_trial <= law.least_yield(eps, start.temperature));
+    if (!any(may_yield)) return {Real(0.0), q_trial, may_yield, may_yield};
+  }
+  return radial_return(curve_at(law, start), q_trial, eps, G, strain, dt);
+}
+
 /// q = sqrt(3/2 s:s).
 template <class Real>
 KRATER_FORCE_INLINE Real equivalent_stress(const Sym3<Real>& s) {

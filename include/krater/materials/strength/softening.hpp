@@ -25,4 +25,13 @@ KRATER_FORCE_INLINE Real thermal_factor(Real temperature, double T_ref, double p
   return Real(1.0) - positive_power(t, m);
 }
 
+/// Never above thermal_factor: T*^m lies below its chord (m >= 1) or its tangent at T* = 1 (m < 1).
+/// The subtrahend is more than the rounding of the power.
+template <class Real>
+KRATER_FORCE_INLINE Real least_thermal_factor(Real temperature, double T_ref, double per_range,
+                                              double m) {
+  const Real t = clamp((temperature - T_ref) * per_range, Real(0.0), Real(1.0));
+  return max(Real(0.0), fms(Real(m < 1.0 ? m : 1.0), 1.0 - t, Real(1e-13)));
+}
+
 }  // namespace krater::inline KRATER_ISA

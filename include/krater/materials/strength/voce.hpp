@@ -97,6 +97,11 @@ struct VoceLaw {
   };
 
   template <class Real>
+  KRATER_FORCE_INLINE Real least_yield(Real eps, Real temperature) const {
+    return fma(Real(0.0), eps, Real(A)) * least_thermal_factor(temperature, T_ref, per_range, m);
+  }
+
+  template <class Real>
   KRATER_FORCE_INLINE Curve<Real> at(Real temperature) const {
     return {*this, thermal_factor(temperature, T_ref, per_range, m)};
   }
