@@ -126,7 +126,8 @@ BodyKernelData Body::kernel_data() const {
   c.pressure = state(field::Pressure::info), c.viscous = state(field::ViscousPressure::info);
   c.energy = state(field::InternalEnergy::info), c.sound_speed = state(field::SoundSpeed::info);
   c.indicator = state(field::ShockIndicator::info), c.half_width = state(field::HalfWidth::info);
-  if (material_->failure == FailureAction::remove) c.removed = state(field::Failed::info);
+  c.failed = state(field::Failed::info);
+  if (material_->failure == FailureAction::remove) c.removed = c.failed;
   c.body_acceleration = state(field::BodyAcceleration::info),
   c.grid_velocity = state(field::GridVelocity::info);
   c.local_gradient = local(field::StepGradient::info),

@@ -7,7 +7,8 @@
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
 /// alpha = 1: FLIP; 0: APIC; between: TFLIP. One alpha for all points: sum m (v_p - s-) vanishes
 /// only over all of them, so an alpha that varied in space would lose momentum. An isolated point
-/// (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand for ever.
+/// (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand for ever. A failed
+/// one, which no tension holds, needs more company: two on their own would still expand (0.4).
 #include "krater/step/scatter.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -15,7 +16,7 @@ namespace krater::inline KRATER_ISA {
 /// The columns the gather touches, as views.
 struct GatherViews {
   WriteView position, velocity, affine, kept, map;
-  ReadView grid_position, mass, density, half_width, body_acceleration, energy, sound_speed;
+  ReadView grid_position, mass, density, half_width, body_acceleration, energy, sound_speed, failed;
   WriteView indicator;
   WriteView step_gradient, extra_dilatation;
   ReadView signal;
@@ -37,6 +38,7 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
           read(c.body_acceleration),
           read(c.energy),
           read(c.sound_speed),
+          read(c.failed),
           write(c.indicator),
           WriteView{w.local + c.local_gradient, c.local_stride},
           WriteView{w.local + c.local_dilatation, c.local_stride},
@@ -159,6 +161,9 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
   return trace;
 }
 
+/// Shares of the mass it sees from which a point carries no L.
+inline constexpr double kAlone = 0.9, kCrowd = 0.4;
+
 /// L carried to the grid (zero for an isolated point) and the kinetic energy, affine part
 /// 1/2 m h^2/4 L:L included.
 template <class Frame, bool Affine>
@@ -176,7 +181,8 @@ KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSum
       for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
       own = own * squares;
     }
-    const Mask alone = own > 0.9 * n.V[3];
+    const Pack limit = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
+    const Mask alone = own > limit * n.V[3];
     for (int a = 0; a < D; ++a) {
       Pack squared = 0.0;
       for (int i = 0; i < D; ++i) {

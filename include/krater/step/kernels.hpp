@@ -22,7 +22,7 @@ struct PointColumns {
   int position = -1, velocity = -1, mass = -1, density = -1;
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
   int removed = -1;  ///< `failed` where failure takes points out of the computation
-  int indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
+  int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
       local_rate = -1;  ///< local record
 };
