@@ -257,21 +257,33 @@ VolumeFraction::Walls walls_of(const MeasureContext& context) {
   return walls;
 }
 
+namespace {
+
+/// Lowest and highest place of the surface along an axis.
+std::array<double, 2> ends(const BodyPoints& body, const MeasureContext& context, int axis) {
+  std::optional<std::array<double, 2>> found;
+  auto& kept = body.memo ? body.memo->ends[index(axis)] : found;
+  if (!kept) {
+    const VolumeFraction fraction = volume_fraction(body, context);
+    const VolumeFraction::Walls walls = walls_of(context);
+    kept = {fraction.outermost(axis, 0, walls), fraction.outermost(axis, 1, walls)};
+  }
+  return *kept;
+}
+
+}  // namespace
+
 double outermost(const BodyPoints& body, const MeasureContext& context, int axis, int side) {
-  return volume_fraction(body, context).outermost(axis, side, walls_of(context));
+  return ends(body, context, axis)[index(side)];
 }
 
 double extent(const BodyPoints& body, const MeasureContext& context, int axis) {
-  const VolumeFraction fraction = volume_fraction(body, context);
-  const VolumeFraction::Walls walls = walls_of(context);
-  return fraction.outermost(axis, 1, walls) - fraction.outermost(axis, 0, walls);
+  const auto [low, high] = ends(body, context, axis);
+  return high - low;
 }
 
 double diameter(const BodyPoints& body, const MeasureContext& context, double at, bool from_end) {
-  const int last = dimension(context.frame) - 1;
-  const VolumeFraction fraction = volume_fraction(body, context);
-  const VolumeFraction::Walls walls = walls_of(context);
-  const double low = fraction.outermost(last, 0, walls), high = fraction.outermost(last, 1, walls);
+  const auto [low, high] = ends(body, context, dimension(context.frame) - 1);
   const double z0 = from_end ? low + at : at;
   const double reach = node_spacing(context) / 2;
   if (!(z0 > low - reach && z0 < high + reach)) return kNothing;
@@ -279,10 +291,7 @@ double diameter(const BodyPoints& body, const MeasureContext& context, double at
 }
 
 double largest_diameter(const BodyPoints& body, const MeasureContext& context) {
-  const int last = dimension(context.frame) - 1;
-  const VolumeFraction fraction = volume_fraction(body, context);
-  const VolumeFraction::Walls walls = walls_of(context);
-  const double low = fraction.outermost(last, 0, walls), high = fraction.outermost(last, 1, walls);
+  const auto [low, high] = ends(body, context, dimension(context.frame) - 1);
   const Slices slices{body, context};
   const double heights = std::max(1.0, std::ceil((high - low) / node_spacing(context)));
   double largest = kNothing;

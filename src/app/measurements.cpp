@@ -61,6 +61,7 @@ class Selections {
 
  private:
   const BodyPoints& keep(const MeasureSelection& selection, BodyPoints points) {
+    points.memo = std::make_shared<SurfaceMemo>();
     selected_.emplace_back(selection, std::move(points));
     return selected_.back().second;
   }

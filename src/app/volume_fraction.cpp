@@ -79,18 +79,25 @@ double bspline(double u) {
 
 NodeWeights node_weights(const MeasuringAxis& axis, double x) {
   const double u = (x - axis.origin) / axis.spacing;
-  const int nearest = static_cast<int>(std::lround(std::clamp(u, 0.0, axis.count - 1.0)));
+  const int last = axis.count - 1;
+  const int nearest = static_cast<int>(std::clamp(u, 0.0, static_cast<double>(last)) + 0.5);
+  const double f = u - nearest;
   NodeWeights result{};
+  if (std::abs(f) <= 0.5) {
+    result.weight = {0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f)};
+  } else {  // beyond the ends
+    for (int n = 0; n < 3; ++n) result.weight[index(n)] = bspline(u - (nearest - 1 + n));
+  }
+  result.index = {nearest - 1, nearest, nearest + 1};
+  if (nearest > 1 && nearest < last - 1) return result;
   for (int n = 0; n < 3; ++n) {
-    int i = nearest - 1 + n;
-    result.weight[index(n)] = bspline(u - i);
-    const int last = axis.count - 1;
+    int& i = result.index[index(n)];
     // The image of a point beyond the plane: what it gives to a node is what the point gives to the
     // node's image.
     if ((i == 0 && axis.closed[0]) || (i == last && axis.closed[1])) result.weight[index(n)] *= 2;
     if (i < 0) i = -i;
     if (i > last) i = 2 * last - i;
-    result.index[index(n)] = std::clamp(i, 0, last);
+    i = std::clamp(i, 0, last);
   }
   return result;
 }
@@ -154,16 +161,33 @@ VolumeFraction::VolumeFraction(int dimension, const std::array<MeasuringAxis, 3>
     cell *= axis(d).spacing;
   }
   phi_.assign(index(axes_[0].count) * index(axes_[1].count) * index(axes_[2].count), 0.0);
-  const NodeWeights single{{0, 0, 0}, {1, 0, 0}};
+  if (dimension_ == 2)
+    add_points<2>(x, section, cell);
+  else
+    add_points<3>(x, section, cell);
+}
+
+/// Row by row: every history row pays for this once per point and node.
+template <int Dim>
+void VolumeFraction::add_points(const std::vector<std::array<double, 3>>& x,
+                                const std::vector<double>& section, double cell) {
+  const std::size_t stride = index(axes_[Dim - 1].count);
   for (std::size_t p = 0; p < x.size(); ++p) {
-    std::array<NodeWeights, 3> w{single, single, single};
-    for (int d = 0; d < dimension_; ++d) w[index(d)] = node_weights(axis(d), x[p][index(d)]);
+    std::array<NodeWeights, Dim> w;
+    for (int d = 0; d < Dim; ++d) w[index(d)] = node_weights(axis(d), x[p][index(d)]);
+    const NodeWeights& last = w[Dim - 1];
+    const auto add_row = [&](std::size_t line, double share) {
+      double* row = phi_.data() + line * stride;
+      for (std::size_t k = 0; k < 3; ++k) row[last.index[k]] += share * last.weight[k];
+    };
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        const double share = section[p] / cell * w[0].weight[i] * w[1].weight[j];
-        for (std::size_t k = 0; k < 3; ++k) {
-          phi_[offset({w[0].index[i], w[1].index[j], w[2].index[k]})] += share * w[2].weight[k];
-        }
+      const double share = section[p] / cell * w[0].weight[i];
+      const std::size_t line = index(w[0].index[i]);
+      if constexpr (Dim == 2) {
+        add_row(line, share);
+      } else {
+        for (std::size_t j = 0; j < 3; ++j)
+          add_row(line * index(axes_[1].count) + index(w[1].index[j]), share * w[1].weight[j]);
       }
     }
   }

@@ -51,6 +51,8 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,12 +62,19 @@
 
 namespace krater {
 
+/// Ends of a surface that the measures of one row share: each costs a pass over all points.
+struct SurfaceMemo {
+  std::array<std::optional<std::array<double, 2>>, 3> ends;  ///< [axis][0 lowest, 1 highest] [m]
+};
+
 /// The points of one or several bodies; vectors along the grid axes, masses as in field::Mass.
 struct BodyPoints {
   std::vector<Triple> x, v;
   std::vector<double> mass, density;
   std::map<std::string, std::vector<double>> scalars;
   std::vector<int> body;  ///< index in the scene; empty: one body
+  /// Of points that change no more; none: every measure looks for itself.
+  std::shared_ptr<SurfaceMemo> memo;
 
   std::size_t count() const { return x.size(); }
   int body_of(std::size_t p) const { return body.empty() ? 0 : body[p]; }

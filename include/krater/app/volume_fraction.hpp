@@ -111,6 +111,9 @@ class VolumeFraction {
   Surface surface(int axis, int side) const;
 
  private:
+  template <int Dim>
+  void add_points(const std::vector<std::array<double, 3>>& x, const std::vector<double>& section,
+                  double cell);
   std::size_t offset(const std::array<int, 3>& i) const;
   std::optional<LineEdge> edge(int axis, int side, std::array<int, 3> node) const;
   double extrapolated(const Surface& surface, const std::array<int, 3>& line,
