@@ -55,14 +55,6 @@ double Simulation::bytes_per_point() const {
   return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
 }
 
-double Simulation::value(int patch, int point, int slot) const {
-  const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
-  const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
-  return p.records
-      .data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
-              static_cast<std::size_t>(kLanes * slot + point % kLanes)];
-}
-
 void Simulation::set_value(int patch, int point, int slot, double x) {
   Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
   const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;

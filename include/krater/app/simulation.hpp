@@ -61,7 +61,14 @@ class Simulation {
 
   /// Call visit(patch, index in the patch) for every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
-  double value(int patch, int point, int slot) const;  ///< component at a slot (Body::slot)
+  /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
+  double value(int patch, int point, int slot) const {
+    const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+    const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
+    return p.records
+        .data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
+                static_cast<std::size_t>(kLanes * slot + point % kLanes)];
+  }
   void set_value(int patch, int point, int slot, double x);
 
   Checkpoint save() const;
