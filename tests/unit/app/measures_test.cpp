@@ -15,8 +15,10 @@
 #include "krater/core/errors.hpp"
 #include "krater/geometry/lattice.hpp"
 #include "krater/geometry/primitives.hpp"
+#include "unit/app/point_sets_support.hpp"
 
 using namespace krater;
+using krater::test::measuring_domain;
 
 namespace {
 
@@ -33,17 +35,6 @@ struct Random {
     return (state >> 8) / static_cast<double>(1u << 24) - 0.5;
   }
 };
-
-/// Domain of n cells a side; open but for the sides given afterwards.
-MeasureContext domain(Frame frame, double cell, Triple min, Triple max) {
-  MeasureContext context;
-  context.frame = frame;
-  context.h = cell;
-  context.min = min;
-  context.max = max;
-  if (frame == Frame::axisymmetric) context.boundary[0][0] = BoundaryKind::symmetry;
-  return context;
-}
 
 Box filled(const MeasureContext& context) {
   Box box{{-inf, -inf, -inf}, {inf, inf, inf}};
@@ -130,7 +121,8 @@ BodyPoints deformed(const Mushroom& m, const MeasureContext& context) {
 MeasureContext anvil(Frame frame, double cell) {
   const double width = 32 * h, height = 72 * h;
   const bool space = frame == Frame::cartesian_3d;
-  MeasureContext context = domain(frame, cell, {}, {width, space ? width : height, height});
+  MeasureContext context =
+      measuring_domain(frame, cell, {}, {width, space ? width : height, height});
   context.boundary[0][0] = BoundaryKind::symmetry;
   if (space) context.boundary[1][0] = BoundaryKind::symmetry;
   context.boundary[index(dimension(frame) - 1)][0] = BoundaryKind::wall;
@@ -187,7 +179,7 @@ TEST_SUITE("unit") {
           const double radius = (8 + excess) * h, length = (20 + excess) * h,
                        low = (3 + offset) * h;
           const MeasureContext context =
-              domain(frame, h, {flat ? -12 * h : 0, 0}, {12 * h, 30 * h});
+              measuring_domain(frame, h, {flat ? -12 * h : 0, 0}, {12 * h, 30 * h});
           const BodyPoints body = at_rest(CylinderSolid(radius, length, {0, 0, low}), context);
           CHECK(measured(MeasureKind::extent, 1, body, context) ==
                 doctest::Approx(length).epsilon(2e-3));
@@ -213,7 +205,7 @@ TEST_SUITE("unit") {
         const double radius = 6.3 * h, length = 11.4 * h;
         Triple min{-9 * h, -9 * h, 0}, max{9 * h, 9 * h, 15 * h};
         for (int d = 0; d < cuts; ++d) min[index(d)] = 0;
-        MeasureContext context = domain(Frame::cartesian_3d, h, min, max);
+        MeasureContext context = measuring_domain(Frame::cartesian_3d, h, min, max);
         context.points_per_direction = points;
         for (int d = 0; d < cuts; ++d) context.boundary[index(d)][0] = BoundaryKind::symmetry;
         const double x0 = cuts > 0 ? 0 : 0.3 * h, y0 = cuts > 1 ? 0 : -0.2 * h;
@@ -229,7 +221,7 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("measures: on a wall, off it, against an upper wall, thin plates") {
-    MeasureContext context = domain(Frame::plane_strain, h, {0, 0}, {20 * h, 12 * h});
+    MeasureContext context = measuring_domain(Frame::plane_strain, h, {0, 0}, {20 * h, 12 * h});
     context.boundary[1] = {BoundaryKind::wall, BoundaryKind::sticky};
     for (const double gap : {0.0, 0.1, 0.3, 0.6, 1.7}) {
       for (const double thickness : {1.5, 2.0, 3.25, 6.0}) {
@@ -310,7 +302,8 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("measures: means, maxima, unknown fields, no points") {
-    const MeasureContext context = domain(Frame::plane_strain, h, {0, 0}, {20 * h, 12 * h});
+    const MeasureContext context =
+        measuring_domain(Frame::plane_strain, h, {0, 0}, {20 * h, 12 * h});
     BodyPoints body;
     body.x = {{h, h, 0}, {2 * h, h, 0}};
     body.v = {{1, -3, 0}, {5, 1, 0}};
