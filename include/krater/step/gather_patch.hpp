@@ -36,7 +36,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     compute_weights<D, Shape, false>(grid, origin, view.grid_position, view.half_width, g, lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;
-    if (s.average_cells) store(cell, cell_index<D>(grid, origin, view.grid_position, g));
+    if (s.average_cells) store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
     const Pack r = view.position(g, 0);
 
     Pack check = n.V[0];

@@ -39,18 +39,7 @@ KRATER_FORCE_INLINE Pack storage(const GridGeometry& grid, Pack x, int axis) {
 /// Index of the first of the three nodes (also the cell that averages), storage numbering.
 KRATER_FORCE_INLINE Pack base_node(Pack s) { return floor(s - 0.5); }
 
-/// Index of a point's cell in its block.
-template <int Dim>
-KRATER_FORCE_INLINE Pack cell_index(const GridGeometry& grid, const PatchOrigin& origin, ReadView x,
-                                    int g) {
-  Pack local = 0.0;
-  for (int a = 0; a < Dim; ++a)
-    local = local * static_cast<double>(block_edge(Dim)) +
-            (base_node(storage(grid, x(g, a), a)) - origin.first[a]);
-  return local;
-}
-
-/// The same, and which lanes lie in the block at all.
+/// Index of a point's cell in its block, and which lanes lie in the block at all.
 struct LocalCell {
   Pack index;
   Mask inside;
