@@ -213,7 +213,7 @@ def build_alone(bench, laws):
                     ["ninja", "-C", copy / "build", "krater_bench_steps"]):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
-            raise SystemExit(f"tools/bench: {done.stdout[-2000:]}")
+            raise SystemExit(f"tools/bench: {(done.stdout + done.stderr)[-2000:]}")
     return copy / "build" / "krater_bench_steps"
 
 
