@@ -80,11 +80,12 @@ def verification(study, lines):
             rows.append([f"oblique plates 1e-3 cell apart at 1000 m/s, {grazing[1].replace('_', ' ')}: lower plate moves (m/s)",
                          f"{grazing[2]} along, {grazing[3]} across", "0"])
     study.add_table(["case", "found", "exact"], rows)
+    [drift] = found(lines, "drift by transfer #")
     study.add("Momentum, linear and along every axis that no wall holds, is kept to 1e-12 of its size in each of these, as the "
               "tests demand. Bodies apart have the same bits as without `contact:`.",
               "Angular momentum: contact itself changes neither it nor the linear one by more than 1e-13 of its size (two discs that meet "
               "off centre with friction, summed over the nodes before and after the impulses). The way of the points to the nodes and "
-              "back drifts, with contact or without (1.6e-4 in the whole collision of these discs; "
+              f"back drifts, with contact or without ({drift[0]:.1e} of it by the middle of this collision; "
               "[spin_and_discs](../spin_and_discs/README.md)).")
     return gaps
 
