@@ -47,6 +47,7 @@ STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cmath>: no folder, no suffix
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
+MAX_COLUMNS = 100  # clang-format leaves comments alone
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(<[^>\n]+>|"[^"\n]+")', re.M)
 PRAGMA_OMP = re.compile(r"^[ \t]*#[ \t]*pragma[ \t]+omp[ \t]+(.*)$", re.M)
 
@@ -81,6 +82,9 @@ class Checker:
         if folder is not None and folder not in LAYERS:
             self.error(path, 1, f"folder '{folder}' is unknown to the layering (known: {', '.join(LAYERS)})")
             return
+        for line, columns in enumerate(map(len, raw.splitlines()), 1):
+            if columns > MAX_COLUMNS:
+                self.error(path, line, f"{columns} columns, more than {MAX_COLUMNS}")
         for match in INCLUDE.finditer(text):
             self.check_include(path, line_of(text, match.start(1)), match.group(1), place, folder)
         if top == "tests":
@@ -250,6 +254,7 @@ def self_test():
                            "int short_one() { return '{' + 1'000; }\n}\n", 2),
         "src/app/d.cpp": ("int i;\n" * 401, 1),
         "src/elsewhere/e.cpp": ("\n", 1),
+        "src/app/f.cpp": ("//" + "x" * 98 + "\n//" + "x" * 99 + "\n", 1),
         "tests/unit/t.cpp": ('#include <doctest/doctest.h>\n#include <hdf5.h>\n#include "krater/core/z.hpp"\n', 1),
     }
     missed = []

@@ -16,7 +16,7 @@ using namespace krater::test;
 
 constexpr double E = 200e9, nu = 0.3, K = E / (3.0 * (1.0 - 2.0 * nu)), G = E / (2.0 * (1.0 + nu));
 
-/// The steel of exact.md D10, Y = 300 MPa, S = 2 MPa.
+/// The steel of theory D10, Y = 300 MPa, S = 2 MPa.
 Recipe steel(const char* damage = "lemaitre_energy") {
   return {.strength = "von_mises",
           .eos = "linear",

@@ -105,7 +105,7 @@ def shear_forms(rate, g):
 
 
 def shear():
-    """All rates to gamma 8. D9 and theory 13 as printed, at gamma .5, 1, 2, 4, 8: s12 alone."""
+    """All rates to gamma 8. Theory 13 and theory D9 as printed, at gamma .5, 1, 2, 4, 8: s12 alone."""
     printed = {"jaumann": (.479426, .841471, .909297, -.756802, .989358),
                "green_naghdi": (.480513, .869784, 1.386294, 2.317944, 5.046021), "truesdell": (.5, 1, 2, 4, 8),
                "truesdell_projected": (.486226, .892534, 1.222377, -.151958, .301567)}
@@ -198,7 +198,7 @@ def motions():
 # ---- damage
 
 def damage():
-    printed = {"1/3": 1.5172, "shear": 1.8025, "1.5": .8410}  # D10; failure at eps_F (.8 + .99 .2)
+    printed = {"1/3": 1.5172, "shear": 1.8025, "1.5": .8410}  # theory D10; failure at eps_F (.8 + .99 .2)
     for case, strain in printed.items():
         path = "point.path={simple_shear: {shear: 3.3, rate: 1.7320508}}" if case == "shear" else \
                f"point.path.triaxial.triaxiality={0.3333333333 if case == '1/3' else 1.5}"
@@ -206,7 +206,7 @@ def damage():
         near(f"Weldox, fracture strain, {case}", s["failure"]["plastic_strain"], .998 * strain, 5e-4)
         check(s["events"]["failures"] == 1 and t["von_mises"][-1] == 0 and t["damage"][-1] == .99,
               f"Weldox, {case}: failed once, for ever")
-    # D10 is of small strain; Y and strain scaled by k and S by k^3 leave its damage as it is.
+    # theory D10 is of small strain; Y and strain scaled by k and S by k^3 leave its damage as it is.
     k, strains, expected = 1e-3, (0.01, 0.02), (.009714, .075179)
     for strain, phi in zip(strains, expected):
         errors = []
@@ -216,7 +216,7 @@ def damage():
                          f"uniaxial_strain: {{strain: {strain * k}, rate: 1}}", steps=steps)
             errors.append(t["damage"][-1])
         order(f"Lemaitre in uniaxial strain to {strain}: first order", -np.diff(errors), 1, 0.1)
-        near(f"Lemaitre in uniaxial strain to {strain}: D10", 2 * errors[-1] - errors[-2], phi, 1e-4)
+        near(f"Lemaitre in uniaxial strain to {strain}: theory D10", 2 * errors[-1] - errors[-2], phi, 1e-4)
     t, s = point(f"{ELASTIC}, spall_strength: 1 GPa, strength: {{von_mises: {{Y: 300 MPa}}}}",
                  "uniaxial_strain: {strain: [0.05, 0, 0.05], rate: 1}", steps=300)
     check(s["events"]["spalls"] > 100 and t["pressure"].min() == -1e9, "spall: cut off and counted",
@@ -305,7 +305,7 @@ def hugoniots():
     for card, pressures in (("ccf_steel", (9.656, 20.774, 47.535, 212.97)),
                             ("ccf_aluminium", (3.877, 8.227, 18.363, 77.768))):
         t, _ = point(f"card: {ROOT}/inputs/materials/{card}.yaml", "hugoniot: {particle_speed: [250, 500, 1000, 3000]}")
-        near(f"cubic Hugoniot of {card}, D1", t["pressure"] / (1e9 * np.array(pressures)), 1, 6e-5)
+        near(f"cubic Hugoniot of {card}, theory D1", t["pressure"] / (1e9 * np.array(pressures)), 1, 6e-5)
         jump = t["pressure"] * (t["compression"] - 1) / t["density"]
         near("  momentum and energy", [jump / t["particle_speed"] ** 2, jump / (2 * t["internal_energy"])], 1, 1e-10)
     gas = "density: 1.2, eos: {ideal_gas: {gamma: 1.4, initial_pressure: 1e5}}"

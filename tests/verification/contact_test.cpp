@@ -132,7 +132,7 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
   return {velocity_of(run, 0), velocity_of(run, 1)};
 }
 
-/// Hertz (exact.md D8): equal steel spheres of 1 m that meet at 17.3 m/s; the contact radius is
+/// Hertz (theory D8): equal steel spheres of 1 m that meet at 17.3 m/s; the contact radius is
 /// sqrt(R d/2) = 0.1 m.
 struct Hertz {
   double peak_force, duration;  ///< over the exact ones

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two elastic discs that collide and part (exact.md D7, inputs/two_discs.yaml), and an elastic disc
-// that spins freely (numerics A2, A4): what the transfers cost.
+// Two elastic discs that collide and part (theory D7, inputs/two_discs.yaml), and an elastic disc
+// that spins freely (theory 3, 16): what the transfers cost.
 #include <doctest/doctest.h>
 
 #include <algorithm>

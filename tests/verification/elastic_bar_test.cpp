@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic waves in a strip in uniaxial strain (plane strain between two planes of symmetry), where
-// the bar's sigma = rho c v/2, contact time 2L/c and mode frequency (exact.md D3) hold with
+// the bar's sigma = rho c v/2, contact time 2L/c and mode frequency (theory D3) hold with
 // c = c_L = sqrt((K + 4G/3)/rho).
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The manufactured solution u = G sin(pi X) sin(c pi t) of a bar of 1 m with fixed ends (exact.md
+// The manufactured solution u = G sin(pi X) sin(c pi t) of a bar of 1 m with fixed ends (theory
 // D6; E 10 MPa, nu 0, rho 1000, c = 100 m/s, one period). The solid is neo-Hookean, with nu = 0
 //   P = mu (F - 1/F), mu = E/2, F = 1 + u_X, and u_tt = -(c pi)^2 u, u_XX = -pi^2 u, hence
 //   b = u_tt - P_X/rho = u_tt - (mu/rho)(1 + 1/F^2) u_XX = (c pi)^2 u (1/F^2 - 1)/2.
 // Steps are 0.2 h/c, 2 points per cell, error max_t sqrt(sum V_p (u_p - u)^2): as mpmat, whose
-// errors are in mms_peer_convergence.csv.
+// errors stand in validation/manufactured.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -145,7 +145,7 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("manufactured bar: splines reach their noise floor") {
-    // Numerics A1: an error that falls to about 0.5 % of G and then rises about like 1/h.
+    // Theory 15: an error that falls to about 0.5 % of G and then rises about like 1/h.
     for (const bool flip : {true, false}) {
       const Study s = study({8, 16, 32, 64, 128}, 0.05, shape("quadratic_bspline", flip));
       CHECK(s.order[0] > 1.8);

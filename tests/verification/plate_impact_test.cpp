@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Symmetric plate impact (theory 13, exact.md D1): one plate moves at u_p against a plane of
+// Symmetric plate impact (theory 13, theory D1): one plate moves at u_p against a plane of
 // symmetry. No strength, so that the Hugoniot is exact. Plane strain, a strip 2 cells wide.
 #include <doctest/doctest.h>
 

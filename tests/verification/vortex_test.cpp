@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The generalized vortex (Kamojjala, Brannon, Sadeghirad, Guilkey 2015; exact.md D6): the ring
+// The generalized vortex (Kamojjala, Brannon, Sadeghirad, Guilkey 2015; theory D6): the ring
 // .75 < R < 1.25 of a neo-Hookean plane is twisted to and fro,
 //   x = Q(a) X, a = g(t) h(R), g = A sin(pi t), h = 1 - 32 (R - 1)^2 + 256 (R - 1)^4,
 // J = 1, shear R g h' up to 6 A. In the axes turned with the point

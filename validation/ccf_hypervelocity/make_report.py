@@ -21,7 +21,7 @@ from validate_runs import Study  # noqa: E402
 
 ESTIMATED_SECONDS = 500  # on two quiet cores
 
-EXACT = 118.57e9  # exact.md D1, flow of one dimension
+EXACT = 118.57e9  # theory D1, flow of one dimension
 CELLS = {10: 0.355e-3, 20: 0.1775e-3, 40: 0.08875e-3}  # cells in the projectile's radius
 SECONDS = {10: 3, 20: 15, 40: 120}
 EARLY = ["time.end=0.3 us", "output={frames: 0.05 us, history: 0.005 us, fields: [pressure]}"]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Manufactured solutions: errors against the cell for the bar (exact.md D6) and the generalized vortex.
+"""Manufactured solutions: errors against the cell for the bar (theory D6) and the generalized vortex.
 
 Writes README.md and pictures into its folder. `tools/validate manufactured` builds first.
 """
@@ -227,7 +227,7 @@ def vortices(study):
               "Plane-strain disc of radius 1.4, ring .75 < R < 1.25 twisted by A sin(pi t) h(R), at rest elsewhere; E 1000, "
               "nu 0.3, rho 1000; root mean square error of the displacement over the points of the ring; default scheme. "
               "The shear reaches 6 A, the stretch 2.4 (A = 1/3) and 6.3 (A = 1): with 2 points per direction, neighbours "
-              "are then more than a cell apart and the run does not converge (numerical fracture, numerics A8); with 4 it "
+              "are then more than a cell apart and the run does not converge (numerical fracture, src/THEORY.md 20); with 4 it "
               "does for A = 1/3.")
     study.add_table(["error m (order)", *(f"h = 1/{n}" for n in (8, 12, 16, 24))], rows)
     study.add("![vortex](vortex.png)")

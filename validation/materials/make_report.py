@@ -124,7 +124,7 @@ def flow_curves(study, known):
               "before it.", "![flow curves](flow_curves.png)")
     study.add_table(["card", "0.1, 1 /s, 294 K", "0.1, 1e3 /s", "0.1, 1e5 /s", "0.1, 1e3 /s, 700 K", "0.4, 1 /s, 294 K",
                      "0.4, 1e3 /s", "rise K", "closed form"], rows)
-    study.add("The temperature of a step is that before it (theory 4), so heating softens one step late. `copper_karamelo` "
+    study.add("The temperature of a step is that before it (src/THEORY.md 4), so heating softens one step late. `copper_karamelo` "
               "has neither rate nor heat: its three rates are one curve. Where the adiabatic curve falls from the start "
               "(`tungsten_alloy`, `s7_tool_steel`) a real specimen would localise; a single point cannot.")
 
@@ -334,7 +334,7 @@ def shear(study):
     figure.savefig(os.path.join(study.folder, "shear.png"), dpi=100)
     plt.close(figure)
     study.add("## Objective rates in large shear", "An elastic solid to a shear of 8, against the closed forms "
-              "(circles; theory 13): the largest error of s12 and s11 over G along the path, by the number of steps, and "
+              "(circles; src/THEORY.md 13): the largest error of s12 and s11 over G along the path, by the number of steps, and "
               "the order between the last two.", "![shear](shear.png)")
     study.add_table(["rate", "1000", "2000", "4000", "8000", "order"], rows)
     study.add("What is left of it in a metal that yields: OFHC copper, isothermal, 1 /s, deviators in MPa.")

@@ -27,7 +27,7 @@
 /// Edges: NaN in, NaN out. exp underflows gradually to 0 below -708.4 and to inf above 709.78.
 /// log(+-0) = -inf, log(x<0) = NaN. pow(x,0) = pow(1,y) = 1 always (as in C); pow(0,y) = 0 or inf;
 /// pow(x<0, y != 0) = NaN even for integral y. rcbrt(+-0) = inf, rcbrt(inf) = 0, rcbrt(x<0) = NaN.
-/// Denormal arguments are exact, not flushed.
+/// Denormal arguments are exact; a thread that flushes them (core/parallel.hpp) sees zeros.
 #pragma once
 
 #include "krater/core/simd.hpp"

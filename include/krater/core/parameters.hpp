@@ -19,7 +19,7 @@ struct ParameterInfo {
   Range range;
   double fallback;  ///< default value, or kRequired
   const char* meaning;
-  const char* alias = nullptr;  ///< a second spelling that is accepted (conventions.md 2-3)
+  const char* alias = nullptr;  ///< a second spelling that is accepted
   /// "printed|critical": the value is one of these words, kept as its index (`fallback` too).
   const char* words = nullptr;
 };

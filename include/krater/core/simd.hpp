@@ -23,8 +23,9 @@
 /// - load and store need 64-byte alignment, loadu and storeu none. store(to, x) writes as many
 ///   doubles as x has: `store(to, 0.0)` writes ONE, `store(to, Pack(0.0))` fills a batch.
 ///
-/// Assumption: round to nearest, no flush to zero. This file and its simd_*.hpp are the only ones
-/// with intrinsics.
+/// Assumption: round to nearest. The tests of this contract run without flush to zero; the sweeps
+/// of a run flush denormals (core/parallel.hpp). This file and its simd_*.hpp are the only ones
+/// with intrinsics, but for the flag that core/parallel.cpp sets.
 #pragma once
 
 #include "krater/core/isa.hpp"

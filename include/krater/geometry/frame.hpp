@@ -4,8 +4,9 @@
 // once.
 //
 //   axisymmetric   grid (r, z); the half section y = 0, x = r >= 0 of a body of revolution about z;
-//   measure 2 pi int r dA plane_strain   grid (x, z); the section y = 0, extruded over 1 m of y;
-//   measure int dA x 1 m 3d             grid (x, y, z); measure int dV
+//                  measure 2 pi int r dA
+//   plane_strain   grid (x, z); the section y = 0, extruded over 1 m of y; measure int dA x 1 m
+//   3d             grid (x, y, z); measure int dV
 //
 // Tensors are always 3D; in the 2D frames component 1 is the hoop or the out-of-plane direction.
 #pragma once

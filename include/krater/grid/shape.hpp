@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file grid/shape.hpp
-/// Shape functions: a hat of the grid convolved with a box of half-width lp of the point (numerics
-/// A1, lengths in h):
-///   hat(z) = max(0, 1 - |z|),  A(z) = 1/2 + u - u|u|/2, u = clamp(z, -1, 1)   (antiderivative of
-///   hat) S(r; lp) = [A(r + lp) - A(r - lp)]/(2 lp),  S' = [hat(r + lp) - hat(r - lp)]/(2 lp),  r =
-///   x_p - x_i
+/// Shape functions: a hat of the grid convolved with a box of half-width lp of the point (theory
+/// 15, lengths in h):
+///   hat(z) = max(0, 1 - |z|),  its antiderivative A(z) = 1/2 + u - u|u|/2,  u = clamp(z, -1, 1)
+///   S(r; lp) = [A(r + lp) - A(r - lp)]/(2 lp),  r = x_p - x_i
+///   S'(r; lp) = [hat(r + lp) - hat(r - lp)]/(2 lp)
 /// lp -> 0: linear; lp of the point's own domain: gimp; lp = 1/2: quadratic B-spline. For every lp
 /// <= 1/2 the support lies in the three nodes floor(x - 1/2) + {0, 1, 2}, and constants and linear
 /// fields are reproduced exactly.

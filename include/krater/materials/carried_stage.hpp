@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// From the effective deviator to what the material carries: the one place where damage degrades
-/// the deviator. phi_{n+1} = phi(d), failure at phi_c or by snap-back, s_{n+1} = (1 - phi_{n+1})
-/// s~_{n+1}, zero after failure; then the work (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE and the
-/// plastic work q_{n+1} d/rho of the carried stresses. A point that fails in this step has s_{n+1}
-/// = 0 and no tension before e is formed, so the elastic energy it releases stays in e as heat
-/// (theory 4). What the pressure loses is told to the equation of state: 1 - w.
+/// the deviator (theory 4):
+///   phi_{n+1} = phi(d), failure at phi_c or by snap-back,
+///   s_{n+1} = (1 - phi_{n+1}) s~_{n+1}, zero after failure;
+/// then the work (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE and the plastic work q_{n+1} d/rho of the
+/// carried stresses. A point that fails in this step has no deviator and no tension before e is
+/// formed, so the elastic energy it releases stays in e as heat. What the pressure loses is told to
+/// the equation of state: 1 - w.
 #pragma once
 
 #include "krater/materials/damage_stage.hpp"

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Pressure, internal energy and sound speed of the step: Algorithm 1 (52)-(60) with alpha = beta =
-/// 1/2 in specific volume, for every p~ = A + B rho e:
+/// Pressure, internal energy and sound speed of the step: Algorithm 1, CCF (52)-(60), with
+/// alpha = beta = 1/2 in specific volume, for every p~ = A + B rho e (theory 9):
 ///   e*      = e_n - p^_n dv/2 + work of viscosity and deviator in the step (SpecificWork)
 ///   p~      = (A + B rho e*) / (1 + w B rho dv/2),   the sign of p~ is that of the numerator
 ///   p^      = max(w p~, -spall_strength),            w = 0 in tension where the point has failed
 ///   e_{n+1} = e* - p^ dv/2
 /// w is 1 - what damage takes of the pressure (Decision 6, materials/carried_stage.hpp); a sound
 /// material without spall strength has p^ = p~. The carried pressure does the work and enters
-/// momentum; (55) as printed omits the last term.
+/// momentum; CCF (55) as printed omits the last term.
 /// Where p is not linear in e (tillotson), A and B rho are the tangent at e_{n+1}, found by Newton.
 /// A strength law may keep voids out of the equation of state, v - void_volume, and limit the
 /// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
-/// c^2 = K_s/rho, floored at 0.01 c0^2 and counted (theory 9).
+/// c^2 = K_s/rho, floored at 0.01 c0^2 and counted.
 #pragma once
 
 #include "krater/materials/batch_access.hpp"

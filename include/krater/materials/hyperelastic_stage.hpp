@@ -4,7 +4,7 @@
 /// no equation of state. F is updated by the kinematics stage if it was a column when that was
 /// made; otherwise this stage declares it and updates it. New points have F = I. The law sees
 /// (J_bar/J)^(1/3) F with the cell-averaged volume J_bar = rho_0/rho: the force takes the averaged
-/// pressure, and the work of one without the other is a source of energy (numerics A5).
+/// pressure, and the work of one without the other is a source of energy (theory 18).
 #pragma once
 
 #include "krater/core/lane_math.hpp"

@@ -3,7 +3,7 @@
 /// First stage: from the map of the step f = I + dt L to volume, density and strain (theory 1, 3).
 ///   j = det f,  j_bar = j (1 + a/2)/(1 - a/2) with a the extra dilatation of cell averaging,
 ///   rho_{n+1} = rho_n / j_bar,  H = (f - I)[(f + I)/2]^-1.
-/// The strain of a step is sym H, never sym(dt L): a spinning body would drift (numerics.md A4).
+/// The strain of a step is sym H, never sym(dt L): a spinning body would drift.
 /// rho, v and tr D use the averaged volume change; the deviator uses the plain f.
 #pragma once
 

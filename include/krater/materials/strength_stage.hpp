@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Deviator of the step: objective trial (strength/trial_deviator.hpp), radial return, and the work
-/// of the deviator (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE of Algorithm 1 (52)-(60). One class for
-/// every yield law; a law that never yields has no plastic columns.
+/// of the deviator (v_n + v_{n+1})/2 (s_n + s_{n+1})/2 : dE of Algorithm 1, CCF (52)-(60). One
+/// class for every yield law; a law that never yields has no plastic columns.
 #pragma once
 
 #include "krater/materials/batch_access.hpp"

@@ -52,8 +52,7 @@ KRATER_FIELD(
     VoidVolume, "void_volume", "m^3/kg", 1,
     "specific volume of voids opened by plastic flow; the equation of state does not see it");
 KRATER_FIELD(Damage, "damage", "1", 1, "damage phi: 0 sound, fails at phi_c");
-KRATER_FIELD(Failed, "failed", "1", 1,
-             "1 where the material has failed: no deviator, no tension, no affine velocity");
+KRATER_FIELD(Failed, "failed", "1", 1, "1 where the material has failed: no deviator, no tension");
 KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last update, undamaged");
 KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1,
              "|tr D| h / c of the last update: switches cell averaging off");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damage laws against exact.md D10 and their equations, and the return with damage inside (theory
+// Damage laws against theory D10 and their equations, and the return with damage inside (theory
 // 4).
 #include <doctest/doctest.h>
 
@@ -51,7 +51,7 @@ double log_uniform(std::mt19937& random, double low, double high) {
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("Lemaitre: uniaxial strain with constant yield stress, exact.md D10") {
+  TEST_CASE("Lemaitre: uniaxial strain with constant yield stress, theory D10") {
     // Undamaged ratio p/Y: chi = K eps/Y; plastic strain 2/3 (eps - Y/2G); s = 1.
     const LemaitreEnergy law = make<LemaitreEnergy>({2e6, 1.0, 0.0, 0.999, -1.0 / 3.0});
     const auto damage = [&](double end) {
@@ -89,7 +89,7 @@ TEST_SUITE("unit") {
     CHECK(other.growth(state(-0.5)).k == 0.0);
   }
 
-  TEST_CASE("Johnson-Cook damage: Weldox 1.5172, 1.8025, .8410 (D10), growth, clamps") {
+  TEST_CASE("Johnson-Cook damage: Weldox 1.5172, 1.8025, .8410 (theory D10), growth, clamps") {
     const JohnsonCookDamage law = weldox(0.0, 0.9, 0.0);
     const auto eps_F = [&](double chi) { return law.fracture_strain(state(chi)); };
     CHECK(std::fabs(eps_F(1.0 / 3.0) - 1.5172) < 6e-5);

@@ -138,7 +138,7 @@ void check_second_order(const Law& law, double x) {
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("ideal gas: the states of Sod's tube, exact.md D4") {
+  TEST_CASE("ideal gas: the states of Sod's tube, theory D4") {
     const Riemann sod = solve(ideal(1.4, 1.0, 1.0), ideal(1.4, 0.125, 0.1));
     CHECK(sod.p == doctest::Approx(0.303130).epsilon(2e-6));
     CHECK(sod.u == doctest::Approx(0.927453).epsilon(2e-6));
@@ -146,14 +146,14 @@ TEST_SUITE("unit") {
     CHECK(sod.rho_right == doctest::Approx(0.265574).epsilon(2e-6));
   }
 
-  TEST_CASE("stiffened gas: water against a light gas, symmetric impacts, exact.md D4") {
+  TEST_CASE("stiffened gas: water against a light gas, symmetric impacts, theory D4") {
     const Riemann water = solve(stiffened(4.4, 6e8, 1000.0, 1e9), stiffened(1.4, 0.0, 50.0, 1e5));
     CHECK(water.p == doctest::Approx(1.41905e7).epsilon(1e-5));
     CHECK(water.u == doctest::Approx(482.610).epsilon(1e-5));
     CHECK(water.rho_left == doctest::Approx(804.445).epsilon(1e-5));
     CHECK(water.rho_right == doctest::Approx(288.168).epsilon(1e-5));
     const struct {
-      StiffenedGas law;  // from 1e5 Pa: the digits of exact.md tell it from zero
+      StiffenedGas law;  // from 1e5 Pa: the digits of theory D4 tell it from zero
       double closing, p, rho;
     } impacts[] = {{stiffened(3.8, 20.805e9, 2785.0, 1e5), 100.0, 0.75043e9, 2811.08},
                    {stiffened(3.8, 20.805e9, 2785.0, 1e5), 1000.0, 8.30175e9, 3039.96},

@@ -53,10 +53,8 @@ TEST_SUITE("unit") {
     }
   }
 
-  TEST_CASE(
-      "Mie-Grueneisen polynomial: on p_H where e = p_H (v0 - v)/2, seed case of exact.md D1") {
-    // Steel and aluminium of the seed's Table 1; pressures of exact.md for symmetric impact at 1
-    // km/s.
+  TEST_CASE("Mie-Grueneisen polynomial: on p_H where e = p_H (v0 - v)/2, materials of theory D1") {
+    // Steel and aluminium of CCF's Table 1; pressures of symmetric impact at 1 km/s.
     const double steel[] = {163.9e9, 294.4e9, 500e9, 1.16};
     const double al[] = {76.74e9, 128.3e9, 125.1e9, 2.0};
     const struct {

@@ -113,7 +113,7 @@ TEST_SUITE("unit") {
     for (const double eps : {1e-6, 0.01, 0.3, 2.0}) {
       const double still = 90e6 + 292e6 * std::pow(eps, 0.31);
       const auto cold = law.at(294.0);
-      // The static curve at and below the reference rate (not 2^C times it, style.md D5).
+      // The static curve at and below the reference rate (not 2^C times it, as one code had it).
       CHECK(cold.hardening(eps).stress == doctest::Approx(still).epsilon(1e-13));
       CHECK(flow_at(cold, eps, 1.0).stress == doctest::Approx(still).epsilon(1e-13));
       CHECK(flow_at(cold, eps, 1e-3).stress == doctest::Approx(still).epsilon(1e-13));

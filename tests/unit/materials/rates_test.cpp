@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The objective rates other than truesdell (trial_deviator_test.cpp) against their closed forms:
-// theory 13, exact.md D9.
+// theory 13, theory D9.
 #include "krater/materials/strength/rates.hpp"
 
 #include <doctest/doctest.h>
@@ -98,7 +98,7 @@ TEST_SUITE("unit") {
             2e-12 * (1.0 + gamma * gamma));
   }
 
-  TEST_CASE("rates: the closed forms here are the numbers of theory 13 and exact.md D9") {
+  TEST_CASE("rates: the closed forms here are the numbers of theory 13 and theory D9") {
     const double g[] = {0.5, 1.0, 2.0, 4.0, 8.0};
     const double j12[] = {.479426, .841471, .909297, -.756802, .989358},
                  j11[] = {.122417, .459698, 1.416147, 1.653644, 1.145500},

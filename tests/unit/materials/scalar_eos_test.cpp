@@ -85,7 +85,7 @@ TEST_SUITE("unit") {
     }
   }
 
-  TEST_CASE("behind a shock: stiffened gas of exact.md D4, cubic Hugoniots of D1") {
+  TEST_CASE("behind a shock: stiffened gas of theory D4, cubic Hugoniots of theory D1") {
     // p_inf is printed there with five digits.
     const auto al = make("stiffened_gas", {3.8, 20.805e9, 1e5}, 2785);
     CHECK(behind_shock(*al, 50).pressure == Approx(0.75043e9).epsilon(1e-5));

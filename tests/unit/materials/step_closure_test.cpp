@@ -28,7 +28,7 @@ Mat3<double> minus_identity(Mat3<double> f) {
 }  // namespace
 
 TEST_SUITE("unit") {
-  TEST_CASE("kinematics: a rotation strains nothing; sym(dt L) would (numerics.md A4)") {
+  TEST_CASE("kinematics: a rotation strains nothing; sym(dt L) would (theory 3)") {
     for (const double angle : {1e-3, 0.5, 2.0}) {
       const double c = std::cos(angle), s = std::sin(angle);
       const Mat3<double> turn = minus_identity({c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c});

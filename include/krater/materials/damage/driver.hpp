@@ -3,9 +3,9 @@
 /// What a damage law is given and what it gives (theory 4, 6, 7). Stresses are effective, those of
 /// the undamaged area: Decision 10. A damage law has
 ///   template <class Real> Growth<Real> growth(const DamageDriver<Real>&) const
-///   bool degrades() const           the stress is (1 - phi) s~; otherwise phi only tells the
-///   failure double limit() const            phi_c: the point fails there static constexpr bool
-///   reads_temperature
+///   bool degrades() const    the stress is (1 - phi) s~; otherwise phi only tells the failure
+///   double limit() const     phi_c: the point fails there
+///   static constexpr bool reads_temperature
 #pragma once
 
 #include "krater/core/lane_math.hpp"
@@ -35,7 +35,7 @@ inline const char* most_damage_problem(double phi_c) {
   return phi_c <= kMostDamage ? nullptr : "phi_c may be 0.999 at most";
 }
 
-/// R_v = 3K/(3K+G) + 9G/(3K+G) chi^2 (11).
+/// R_v = 3K/(3K+G) + 9G/(3K+G) chi^2: CCF (11).
 template <class Real>
 KRATER_FORCE_INLINE Real triaxiality_function(const DamageDriver<Real>& x) {
   const Real three_K = 3.0 * x.K;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Johnson-Cook damage (theory 7, CCF (34), (35), (41), SPEAR (S.42)-(S.44)):
-///   eps_F = (D1 + D2 exp(D3 chi))(1 + D4 ln max(epsdot/epsdot0, 1))(1 + D5 T*), at least
-///   eps_f_min,
-/// chi clamped to [-5, 1.5], positive in tension ((S.43) omits the logarithm: the log is used).
+///   eps_F = (D1 + D2 exp(D3 chi)) (1 + D4 ln max(epsdot/epsdot0, 1)) (1 + D5 T*) >= eps_f_min,
+/// chi clamped to [-5, 1.5], positive in tension (SPEAR (S.43) omits the logarithm: it is used).
 ///   coupled    k = 1/((1 - gamma_D) eps_F) from eps_D = gamma_D eps_F on; fails at phi_c, as
-///   printed
-///              (Decision 3); `normalise: critical` multiplies k by phi_c (Borvik's law)
+///              printed (Decision 3); `normalise: critical` multiplies k by phi_c (Borvik's law)
 ///   uncoupled  phi = omega, d omega = d eps/eps_F: fails at 1; `softening: linear` lets it degrade
 ///              the stress, to .999
 /// Reference: Johnson and Cook 1985.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Lemaitre damage (theory 6, CCF (8)-(25)), R_v = 3K/(3K+G) + 9G/(3K+G) chi^2:
-///   energy form (17)     dphi/deps = (Y/S)^s for eps > eps_d,  Y = q~^2 R_v/(2E), E = 9KG/(3K+G)
-///   threshold form (21)  dphi/deps = phi_c R_v^s/(e_F - e_D) for eps > e_D/R_v^s (25)
+///   energy form     dphi/deps = (Y/S)^s for eps > eps_d, Y = q~^2 R_v/(2E), E = 9KG/(3K+G):
+///                   CCF (17)
+///   threshold form  dphi/deps = phi_c R_v^s/(e_F - e_D) for eps > e_D/R_v^s: CCF (21), (25)
 /// Growth only while chi > triaxiality_min (-1/3 by default: Decision 10, not in CCF). Fails at
 /// phi >= phi_c. Reference: Lemaitre 1985.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// p = K mu, mu = rho/rho0 - 1: theory 9. Barotropic: the energy carries no pressure, K_s = K
-/// rho/rho0. For elastic problems and weak compression.
+/// p = K mu, mu = rho/rho0 - 1: theory 9. Barotropic: the energy carries no pressure,
+/// K_s = K rho/rho0. For elastic problems and weak compression.
 #pragma once
 
 #include "krater/materials/eos/split.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// p = (1 - gamma mu/2) p_H + gamma rho e with p_H = a0 mu + b0 mu^2 + c0 mu^3 for mu > 0, a0 mu
-/// otherwise; gamma = gamma0 rho0/rho in compression, gamma0 in expansion; mu = rho/rho0 - 1:
-/// theory 9, CCF (49)-(51). Isentropic modulus by Decision 5 ((61)-(62) as printed miss gamma and d
-/// gamma/d mu). e = 0 at rho0, T_ref.
+/// p = (1 - gamma mu/2) p_H + gamma rho e,  mu = rho/rho0 - 1 (theory 9, CCF (49)-(51)):
+///   mu > 0:  p_H = a0 mu + b0 mu^2 + c0 mu^3,  gamma = gamma0 rho0/rho
+///   else:    p_H = a0 mu,                      gamma = gamma0
+/// Isentropic modulus by Decision 5: CCF (61)-(62) as printed miss gamma and d gamma/d mu.
+/// e = 0 at rho0, T_ref.
 #pragma once
 
 #include "krater/materials/eos/split.hpp"

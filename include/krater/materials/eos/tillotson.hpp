@@ -2,9 +2,9 @@
 /// \file
 /// Metals and rock from the solid to vapour, x = rho/rho0, mu = x - 1, z = 1/x - 1,
 /// w = max(e/(E0 x^2) + 1, 1/2):
-///   condensed (x >= 1 or e <= E_iv):  p_c = (a + b/w) rho e + A mu + B mu^2
-///   expanded  (x < 1 and e >= E_cv):  p_x = a rho e + [b rho e/w + A mu e^(-beta z)] e^(-alpha
-///   z^2) between:                          p = [(e - E_iv) p_x + (E_cv - e) p_c] / (E_cv - E_iv)
+///   condensed (x >= 1 or e <= E_iv)  p_c = (a + b/w) rho e + A mu + B mu^2
+///   expanded  (x < 1 and e >= E_cv)  p_x = a rho e + [b rho e/w + A mu e^(-beta z)] e^(-alpha z^2)
+///   between                          p = [(e - E_iv) p_x + (E_cv - e) p_c] / (E_cv - E_iv)
 /// Theory 9. References: Tillotson, General Atomic GA-3216, 1962; Melosh, Impact Cratering, 1989,
 /// AII.2; alpha and beta placed as there (some codes swap them). e = 0 at rho0.
 ///

@@ -29,7 +29,7 @@ struct EnergyHeating {
   static constexpr const char* name = "energy";
   static constexpr const char* equation = "T = T_s + (e - s:s/(4G (1 - phi) rho) - e_s)/c_v";
   static constexpr const char* reference =
-      "Meyers, Dynamic Behavior of Materials, 1994, section 5.4; theory 8";
+      "Meyers, Dynamic Behavior of Materials, 1994, section 5.4; src/THEORY.md 8";
   static constexpr bool needs_eos = true;
   static constexpr Parameter<EnergyHeating> parameters[] = {
       {{"c_v", "J/(kg.K)", Range::positive, kRequired, "specific heat at constant volume", "cv"},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Return with damage inside the yield condition: theory 4, `coupling: rate`, CCF (26)-(32) and
-/// (42)-(46) to the letter (Decision 8). Divided by 1 - phi_n, with r(d) = (1 - phi(d))/(1 -
-/// phi_n):
+/// (42)-(46) to the letter (Decision 8). Divided by 1 - phi_n, with
+///   r(d) = (1 - phi(d))/(1 - phi_n):
 ///   q~_tr <= sigma_Y(eps_n, 0): d = 0;   else  q~_tr - 3G d - r(d) sigma_Y(eps_n + d, d/dt) = 0,
 ///   phi(d) = min(phi_c, phi_n + k <eps_n + d - max(eps_n, eps_D)>);
 ///   s_{n+1} = s_tr [1 - 3G (1 - phi_n) d/q_tr] = (1 - phi_{n+1}) s~_tr sigma_Y/q~_tr.

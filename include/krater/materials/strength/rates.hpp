@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Elastic trial deviators of the objective rates (theory 3, Decision 1), H = (f - I)[(f +
-/// I)/2]^-1:
-///   truesdell            G dev(f_bar b_e f_bar^T) strength/trial_deviator.hpp truesdell_projected
-///   dev[(1/j) f s f^T] + 2G dev(sym H)             CCF (7), trace dropped jaumann              Q s
-///   Q^T + 2G dev(sym H),  Q = (I - W/2)^-1 (I + W/2), W = skew H green_naghdi         dR s dR^T +
-///   2G R_h dev(sym H) R_h^T,  dR = R_{n+1} R_n^T, R_h half of dR
+/// Elastic trial deviators of the objective rates (theory 3, Decision 1),
+/// H = (f - I)[(f + I)/2]^-1:
+///   truesdell            G dev(f_bar b_e f_bar^T), f_bar = j^(-1/3) f: strength/trial_deviator.hpp
+///   truesdell_projected  dev[(1/j) f s f^T] + 2G dev(sym H): CCF (7), the trace dropped
+///   jaumann              Q s Q^T + 2G dev(sym H),  Q = (I - W/2)^-1 (I + W/2),  W = skew H
+///   green_naghdi         dR s dR^T + 2G R_h dev(sym H) R_h^T,  dR = R_{n+1} R_n^T,  R_h half of dR
 /// Projected and jaumann are first order in the step, green_naghdi second (for its R_h); they stand
 /// here to measure what the paper calls the inconsistency of rates. s is traceless, so
 /// push-forwards are written as s + dev(change): a body at rest keeps its stress bit for bit.
