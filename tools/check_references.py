@@ -34,7 +34,7 @@ LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 QUOTED = re.compile(r"`([^`\s]+)`")
 
 # Written by runs, a user's (in capitals, or x), or another program's.
-NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|history\.csv|point\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
+NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
 
 
 class Checker:

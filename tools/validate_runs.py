@@ -14,7 +14,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -48,12 +47,9 @@ class Run:
 
     @property
     def memory(self):
-        """Largest resident memory of the program in bytes; None where it was not recorded."""
-        try:
-            with open(os.path.join(self.folder, "memory.txt"), encoding="utf-8") as file:
-                return float(file.read())
-        except OSError:
-            return None
+        """Largest resident memory of the program in bytes, as it says itself: what the launcher could ask for counts
+        its own memory too, for a child starts as a copy of it. None where the program did not say."""
+        return self.summary["machine"].get("peak_resident_bytes")
 
     def history(self):
         """name -> values."""
@@ -81,14 +77,8 @@ class Point:
 
 
 def execute(command, environment):
-    """(finished process, largest resident memory of it in bytes)."""
-    with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors, env=environment)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        errors.seek(0)
-        done = subprocess.CompletedProcess(command, process.returncode, "", errors.read())
-    return done, 1024.0 * usage.ru_maxrss
+    return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment,
+                          check=False)
 
 
 def digest(*paths):
@@ -135,20 +125,18 @@ class Study:
             command += ["--set", setting]
         environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
         begin = time.monotonic()
-        done, memory = execute(command, environment)
+        done = execute(command, environment)
         for _ in range(3):  # interrupted by someone else's signal: the same bits from the checkpoint
             checkpoint = os.path.join(folder, "checkpoint.h5")
             if done.returncode != 4 or not os.path.exists(checkpoint):
                 break
-            done, memory = execute([*command, "--restart", checkpoint], environment)
+            done = execute([*command, "--restart", checkpoint], environment)
         print(f"  {label}: {time.monotonic() - begin:.1f} s" +
               (f", exit code {done.returncode}" if done.returncode else ""), flush=True)
         if done.returncode:
             words = done.stderr.strip().splitlines()
             self.failed.append((label, done.returncode, words[-1] if words else ""))
             return None
-        with open(os.path.join(folder, "memory.txt"), "w", encoding="utf-8") as file:
-            file.write(f"{memory}\n")
         with open(stamp, "w", encoding="utf-8") as file:
             file.write(wanted)
         return Run(folder)

@@ -105,7 +105,7 @@ def verdicts(study, runs):
                f"at 20 µs {1e3 * side:.1f} mm along the bar's sides, {1e3 * diagonal:.1f} mm along its diagonals; a turned "
                "square would be 1.41 times as wide along the sides, a disc equal"),
               ("energy error below 1 %", abs(run.error) < 1, f"{run.error:.2f} %"),
-              ("under 200 MB", memory is not None and memory < 200e6, f"{1e-6 * (memory or 0):.0f} MB")]
+              ("under 200 MB", memory is not None and memory < 200e6, f"{1e-6 * memory:.0f} MB" if memory else "not known")]
     study.add("At the paper's cell of 0.5 mm (40,100 points):")
     study.add_table(["demanded", "met", "found"], [[a, "yes" if b else "**no**", c] for a, b, c in checks])
     ends = [f"{name.split(',')[0]}: {', '.join(f'{side / diagonal:.2f}' for side, diagonal in (head(r, t) for t in TIMES))}"
