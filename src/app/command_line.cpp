@@ -92,7 +92,9 @@ int command_line(int argc, char** argv) {
   run_command->add_option("-j,--threads", options.threads, "threads (default: all)")
       ->check(CLI::Range(1, 4096));
   run_command->add_option("--restart", options.restart, "continue from a checkpoint.h5");
-  run_command->add_flag("--quiet", options.quiet, "no progress, no notes");
+  run_command->add_flag("--quiet", options.quiet,
+                        "no progress, no notes; warnings at the end only");
+  run_command->add_flag("--strict", options.strict, "exit code 5 when the run ends with warnings");
   CLI::App* check_command =
       app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
   add_scene_options(check_command, options);

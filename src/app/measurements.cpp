@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/measurements.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "krater/app/pieces.hpp"
@@ -194,13 +196,19 @@ std::vector<double> Measurements::values(const Simulation& sim, bool all) {
   return out;
 }
 
+std::vector<Quantity> Measurements::titles(const Scene& scene) const {
+  std::vector<Quantity> columns;
+  for (const MeasureOptions& m : scene.measures)
+    if (m.in_history) columns.push_back({m.name, unit_of(m), kNothing});
+  return columns;
+}
+
 std::vector<Quantity> Measurements::row(const Simulation& sim) {
   const std::vector<double> now = values(sim, false);
-  std::vector<Quantity> columns;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const MeasureOptions& m = sim.scene().measures[i];
-    if (m.in_history) columns.push_back({m.name, unit_of(m), now[i]});
-  }
+  std::vector<Quantity> columns = titles(sim.scene());
+  std::size_t column = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (sim.scene().measures[i].in_history) columns[column++].value = now[i];
   return columns;
 }
 
@@ -222,24 +230,35 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
   if (!fragments.items.empty()) summary["fragments"] = std::move(fragments);
 }
 
-void Measurements::save(Checkpoint& checkpoint) const {
+void Measurements::save(Checkpoint& checkpoint, const Scene& scene) const {
+  std::string names;
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const MeasureSeries& s = series_[i];
     std::vector<double> x{s.kept, s.kept_time};
     x.insert(x.end(), s.time.begin(), s.time.end());
     x.insert(x.end(), s.sample.begin(), s.sample.end());
     checkpoint.blobs.push_back({"measures/" + std::to_string(i), {x.size()}, std::move(x), {}, {}});
+    names += scene.measures[i].name + "\n";
   }
+  if (!names.empty()) checkpoint.blobs.push_back({"measures/names", {}, {}, {}, std::move(names)});
 }
 
-/// Measures that the checkpoint does not know start here.
-void Measurements::restore(const Checkpoint& checkpoint) {
-  for (std::size_t i = 0; i < series_.size(); ++i) {
-    const CheckpointBlob* blob = checkpoint.find("measures/" + std::to_string(i));
-    if (blob == nullptr || blob->doubles.size() < 2) continue;
+void Measurements::restore(const Checkpoint& checkpoint, const Scene& scene,
+                           const std::vector<std::string>& changed) {
+  const CheckpointBlob* names = checkpoint.find("measures/names");
+  if (names == nullptr) return;
+  std::istringstream lines{names->text};
+  std::string name;
+  for (std::size_t number = 0; std::getline(lines, name); ++number) {
+    const CheckpointBlob* blob = checkpoint.find("measures/" + std::to_string(number));
+    const auto at = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                 [&name](const MeasureOptions& m) { return m.name == name; });
+    const bool other = std::find(changed.begin(), changed.end(), name) != changed.end();
+    if (at == scene.measures.end() || other || blob == nullptr || blob->doubles.size() < 2)
+      continue;
     const std::vector<double>& x = blob->doubles;
     const auto half = static_cast<std::ptrdiff_t>((x.size() - 2) / 2);
-    MeasureSeries& s = series_[i];
+    MeasureSeries& s = series_[static_cast<std::size_t>(at - scene.measures.begin())];
     s.kept = x[0], s.kept_time = x[1];
     s.time.assign(x.begin() + 2, x.begin() + 2 + half);
     s.sample.assign(x.begin() + 2 + half, x.end());

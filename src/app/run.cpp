@@ -12,17 +12,35 @@
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/measurements.hpp"
 #include "krater/app/progress.hpp"
+#include "krater/app/schedule.hpp"
 #include "krater/app/snapshot.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/scene/compare.hpp"
 
 namespace krater {
 
 namespace {
 
+constexpr std::size_t kListed = 20;  // keys that differ in one message
+
 volatile std::sig_atomic_t interrupted = 0;
-extern "C" void on_signal(int) { interrupted = 1; }
+
+/// Heard between steps; where a step does not end, the third signal ends the program.
+extern "C" void on_signal(int number) {
+  interrupted = interrupted + 1;
+  if (interrupted < 3) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+/// Not before the set-up is done: until then a signal ends the program, and nothing is lost.
+void listen_to_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+}
 
 std::string default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem().string() + "_out";
@@ -46,23 +64,6 @@ std::string continuation(const RunOptions& options, const std::string& folder) {
   return text + " -o " + quoted(folder) + " --restart " + quoted(folder + "/checkpoint.h5");
 }
 
-/// Times of the next outputs; survives a restart because it depends on the time reached only.
-class Schedule {
- public:
-  Schedule(double interval, double now) : interval_{interval} { advance(now); }
-  double next() const { return next_; }
-  bool due(double now) const { return interval_ > 0 && now >= next_; }
-  void advance(double now) {
-    if (interval_ <= 0) return;
-    auto k = static_cast<std::int64_t>(now / interval_ * (1 + 1e-12));
-    next_ = static_cast<double>(k + 1) * interval_;
-    while (next_ <= now * (1 + 1e-14)) next_ = static_cast<double>(++k + 1) * interval_;
-  }
-
- private:
-  double interval_, next_ = std::numeric_limits<double>::infinity();
-};
-
 class Runner {
  public:
   Runner(const RunOptions& options, Scene scene)
@@ -77,11 +78,14 @@ class Runner {
 
  private:
   void begin();
+  std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint) const;
   void resume();
   std::vector<Quantity> history_columns();
+  std::vector<Quantity> history_titles() const;  ///< without measuring, which measures remember
   void write_history();
   void write_frame(double time);
   void write_checkpoint();
+  void tell_warnings(Progress& progress);
   int fail(const std::string& message, Progress& progress);
   Json summary(const std::string& status, double seconds);
   int finish(const std::string& status, const std::string& message, int code,
@@ -108,12 +112,11 @@ void Runner::begin() {
   measurements_.check(sim_);  // what cannot be measured is said before anything is written
   lock_.take(results_.path());
   try {
+    if (!options_.restart.empty()) results_.continue_from(sim_.time(), history_titles());
     results_.write_text("resolved.yaml", scene_.resolved);
     if (options_.restart.empty()) {
       write_frame(sim_.time());
       write_history();
-    } else {
-      results_.truncate_after(sim_.time());
     }
     write_checkpoint();
   } catch (const OutputError& e) {
@@ -121,8 +124,29 @@ void Runner::begin() {
   }
 }
 
+/// A state means something only to the scene it is a state of: with another density or law under it
+/// every later number would be wrong, and nothing would say so.
+std::vector<SceneDifference> Runner::require_same_scene(const Checkpoint& checkpoint) const {
+  const CheckpointBlob* text = checkpoint.find("scene");
+  if (text == nullptr) throw InputError(options_.restart + ": it names no scene");
+  std::vector<SceneDifference> differences = scene_differences(text->text, scene_.resolved);
+  std::string list;
+  std::size_t refused = 0;
+  for (const SceneDifference& d : differences) {
+    if (may_differ(d) || ++refused > kListed) continue;
+    list += fmt::format("\n  {}: {} in the checkpoint, {} in the scene", d.path, d.before, d.now);
+  }
+  if (refused == 0) return differences;
+  if (refused > kListed) list += fmt::format("\n  and {} more", refused - kListed);
+  throw InputError(options_.restart +
+                   ": it belongs to another scene; restart with the scene and the --set options it "
+                   "was written with (title, time, output, measures, references may change):" +
+                   list);
+}
+
 void Runner::resume() {
   const Checkpoint checkpoint = read_checkpoint(options_.restart);
+  const std::vector<SceneDifference> differences = require_same_scene(checkpoint);
   try {
     sim_.restore(checkpoint);
   } catch (const InputError& e) {
@@ -130,12 +154,12 @@ void Runner::resume() {
   } catch (const std::out_of_range&) {
     throw InputError(options_.restart + ": damaged, or written by another version of krater");
   }
-  measurements_.restore(checkpoint);
-  const CheckpointBlob* text = checkpoint.find("scene");
-  // The first line names the file.
-  const auto body = [](const std::string& yaml) { return yaml.substr(yaml.find('\n') + 1); };
-  if (text != nullptr && body(text->text) != body(scene_.resolved) && !options_.quiet)
-    say("krater: note: the scene differs from the one the checkpoint was written with");
+  measurements_.restore(checkpoint, sim_.scene(), changed_measures(differences));
+  if (!differences.empty() && !options_.quiet) {
+    std::string paths;
+    for (const SceneDifference& d : differences) paths += (paths.empty() ? "" : ", ") + d.path;
+    say("krater: note: changed since the checkpoint: " + paths);
+  }
   const CheckpointBlob* counters = checkpoint.find("output");
   if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
   first_step_ = sim_.steps();
@@ -144,6 +168,12 @@ void Runner::resume() {
 std::vector<Quantity> Runner::history_columns() {
   std::vector<Quantity> row = history_row(sim_);
   for (Quantity& q : measurements_.row(sim_)) row.push_back(std::move(q));
+  return row;
+}
+
+std::vector<Quantity> Runner::history_titles() const {
+  std::vector<Quantity> row = history_row(sim_);
+  for (Quantity& q : measurements_.titles(scene_)) row.push_back(std::move(q));
   return row;
 }
 
@@ -159,15 +189,18 @@ void Runner::write_frame(double time) {
 void Runner::write_checkpoint() {
   Checkpoint c = sim_.save();
   c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
-  measurements_.save(c);
+  measurements_.save(c, scene_);
   c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
   results_.write_checkpoint(c);
 }
 
 int Runner::go() {
   begin();
+  listen_to_signals();
   Progress progress{sim_, options_.quiet};
-  Schedule frames{scene_.output.frames, sim_.time()}, history{scene_.output.history, sim_.time()};
+  const double end = scene_.time.end;
+  Schedule frames{scene_.output.frames, end, sim_.time()};
+  Schedule history{scene_.output.history, end, sim_.time()};
   double last_checkpoint = 0;
   try {
     while (!sim_.done()) {
@@ -180,14 +213,21 @@ int Runner::go() {
         say("krater: " + message);
         return finish("interrupted", message, kInterrupted, progress);
       }
-      sim_.step(std::min(frames.next(), scene_.time.end));
-      if (history.due(sim_.time()) || scene_.output.history <= 0 || sim_.done())
-        write_history(), history.advance(sim_.time());
-      if (frames.due(sim_.time()) || sim_.done())
-        write_frame(sim_.time()), frames.advance(sim_.time());
+      sim_.step(frames.next());
+      tell_warnings(progress);
+      if (history.due(sim_.time()) || scene_.output.history <= 0) {
+        write_history();
+        history.advance(sim_.time());
+      }
+      if (frames.due(sim_.time())) {
+        write_frame(sim_.time());
+        frames.advance(sim_.time());
+      }
       if (scene_.output.checkpoint_wall > 0 &&
-          progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall)
-        write_checkpoint(), last_checkpoint = progress.seconds();
+          progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall) {
+        write_checkpoint();
+        last_checkpoint = progress.seconds();
+      }
       progress.show();
     }
   } catch (const NumericalError& e) {
@@ -196,6 +236,14 @@ int Runner::go() {
   write_checkpoint();
   progress.finish();
   return finish("done", "", kDone, progress);
+}
+
+void Runner::tell_warnings(Progress& progress) {
+  if (options_.quiet) return;  // they come at the end
+  for (const std::string& text : sim_.warnings().unsaid()) {
+    progress.finish();
+    say("krater: warning: " + text);
+  }
 }
 
 /// The state as it was when the step broke, for a look: a frame and a row just after the last good
@@ -226,6 +274,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
   measurements_.summarize(sim_, j);
+  j["warnings"] = sim_.warnings().json();
   j["audit"] = audit_json(sim_);
   Json& limiters = j["dt_limiters"];
   limiters["0"] = Json::of("wave speed");
@@ -261,20 +310,19 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
   results_.flush();
-  const Audit& audit = sim_.audit();
-  const double all = audit.removed_points + static_cast<double>(sim_.point_count());
-  const double left = audit.removed_points - audit.removed_failed;
-  if (left > 0 && !options_.quiet)
-    say(fmt::format(
-        "krater: note: {:.0f} of {:.0f} points left the domain (grid.box) and were removed", left,
-        all));
-  if (audit.removed_failed > 0 && !options_.quiet)
-    say(fmt::format("krater: note: {:.0f} of {:.0f} points failed and were removed",
-                    audit.removed_failed, all));
+  const double failed = sim_.audit().removed_failed;
+  if (failed > 0 && !options_.quiet)
+    say(fmt::format("krater: note: {:.0f} points failed and were removed, as the scene asks",
+                    failed));
+  const std::vector<Warning>& warnings = sim_.warnings().all();
+  for (const Warning& warning : warnings) say("krater: warning: " + sentence(warning));
+  const std::string with = warnings.empty() ? ""
+                                            : fmt::format(" with {} warning{}", warnings.size(),
+                                                          warnings.size() > 1 ? "s" : "");
   if (!options_.quiet)
-    say(fmt::format("krater: {} after {} steps, results in {}", status, sim_.steps(),
+    say(fmt::format("krater: {}{} after {} steps, results in {}", status, with, sim_.steps(),
                     results_.path()));
-  return code;
+  return code == kDone && options_.strict && !warnings.empty() ? int{kWarned} : code;
 }
 
 }  // namespace
@@ -285,11 +333,7 @@ int run(const RunOptions& options) {
   Scene scene = read_scene(options.scene, options.overrides);
   if (!options.quiet)
     for (const std::string& note : scene.notes) say("krater: note: " + note);
-  Runner runner{options, std::move(scene)};
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-  return runner.go();
+  return Runner{options, std::move(scene)}.go();
 }
 
 }  // namespace krater

@@ -239,6 +239,7 @@ void Simulation::step(double until) {
   const int p = step_->limiting_patch();
   if (p >= 0 && p < static_cast<int>(grid_.patches.size()))
     limiter_kind_ = grid_.patches[static_cast<std::size_t>(p)].result.limiter;
+  watch(*this, warnings_);
 }
 
 bool Simulation::walls_act_on_points() const {

@@ -29,17 +29,6 @@ const char* text_of(FaultKind kind) {
   return "unknown";
 }
 
-namespace {
-
-/// A state means nothing on another grid.
-std::vector<double> grid_identity(Frame frame, const GridGeometry& g) {
-  std::vector<double> out{static_cast<double>(frame), g.h};
-  for (std::size_t a = 0; a < 3; ++a) out.insert(out.end(), {g.min[a], 1.0 * g.cells[a]});
-  return out;
-}
-
-}  // namespace
-
 std::size_t Simulation::point_count() const {
   std::size_t n = 0;
   for (const Patch& p : grid_.patches) n += static_cast<std::size_t>(p.count);
@@ -137,117 +126,6 @@ std::string Simulation::describe_fault(const StepFault& fault) const {
     }
   return fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(fault.patch, point),
                      text_of(fault.fault.kind), field, time_, steps_);
-}
-
-Checkpoint Simulation::save() const {
-  Checkpoint out;
-  const auto numbers = [&out](std::string name, std::vector<double> x) {
-    CheckpointBlob b;
-    b.name = std::move(name);
-    b.shape = {x.size()};
-    b.doubles = std::move(x);
-    out.blobs.push_back(std::move(b));
-  };
-  const auto integers = [&out](std::string name, std::vector<std::int64_t> x) {
-    CheckpointBlob b;
-    b.name = std::move(name);
-    b.shape = {x.size()};
-    b.integers = std::move(x);
-    out.blobs.push_back(std::move(b));
-  };
-  numbers("clock", {time_, dt_, dt_free_, min_step_, max_rate_});
-  integers("counters", {steps_, limiter_kind_});
-  numbers("grid", grid_identity(scene_.frame, geometry_));
-  static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
-  const auto* audit = reinterpret_cast<const double*>(&step_->audit());
-  numbers("audit", std::vector<double>(audit, audit + sizeof(Audit) / sizeof(double)));
-  std::vector<double> rigid;
-  for (const RigidBody& body : rigid_.all()) {
-    const std::vector<double> state = body.state();
-    rigid.insert(rigid.end(), state.begin(), state.end());
-  }
-  if (rigid_.any()) numbers("rigid", std::move(rigid));
-  std::vector<std::int64_t> patches;
-  for (const Patch& p : grid_.patches) {
-    for (int a = 0; a < 3; ++a) patches.push_back(p.key.i[static_cast<std::size_t>(a)]);
-    patches.push_back(p.body);
-    patches.push_back(p.count);
-  }
-  integers("patches", std::move(patches));
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    for (const Column& c : bodies_[b]->layout().columns())
-      for (int k = 0; k < c.components; ++k) {
-        std::vector<double> x;
-        for (std::size_t p = 0; p < grid_.patches.size(); ++p)
-          if (grid_.patches[p].body == static_cast<int>(b))
-            for (int i = 0; i < grid_.patches[p].count; ++i)
-              x.push_back(value(static_cast<int>(p), i, c.offset / kLanes + k));
-        numbers(fmt::format("{}/{}/{}", bodies_[b]->name(), c.field->name, k), std::move(x));
-      }
-  return out;
-}
-
-void Simulation::restore_rigid(const std::vector<double>& state) {
-  if (state.size() != RigidBody::kStateSize * rigid_.all().size())
-    throw InputError(
-        "checkpoint: it belongs to a scene with other rigid bodies; restart with the scene and the "
-        "--set options it was written with");
-  for (std::size_t i = 0; i < rigid_.all().size(); ++i)
-    rigid_.all()[i].set_state(state.data() + i * RigidBody::kStateSize);
-}
-
-void Simulation::restore(const Checkpoint& checkpoint) {
-  const auto find = [&](const std::string& name) -> const CheckpointBlob& {
-    for (const CheckpointBlob& b : checkpoint.blobs)
-      if (b.name == name) return b;
-    throw InputError("checkpoint has no '" + name +
-                     "': it belongs to another scene (a body, law or method differs)");
-  };
-  if (find("grid").doubles != grid_identity(scene_.frame, geometry_))
-    throw InputError(
-        "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
-        "the scene and the --set options it was written with");
-  const auto& clock = find("clock").doubles;
-  time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), max_rate_ = clock.at(4);
-  steps_ = find("counters").integers.at(0);
-  limiter_kind_ = static_cast<int>(find("counters").integers.at(1));
-  const auto& audit = find("audit").doubles;
-  if (audit.size() != sizeof(Audit) / sizeof(double))
-    throw InputError("checkpoint was written by another version of krater");
-  std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
-
-  if (rigid_.any()) restore_rigid(find("rigid").doubles);
-  const auto& patches = find("patches").integers;
-  grid_.patches.clear();
-  for (std::size_t i = 0; i + 4 < patches.size(); i += 5) {
-    grid_.patches.emplace_back();
-    Patch& p = grid_.patches.back();
-    for (std::size_t a = 0; a < 3; ++a) p.key.i[a] = static_cast<std::int32_t>(patches[i + a]);
-    p.body = static_cast<int>(patches[i + 3]);
-    p.count = static_cast<int>(patches[i + 4]);
-    const int stride = kernel_data_.at(static_cast<std::size_t>(p.body)).columns.stride;
-    p.records.reserve(static_cast<std::size_t>(p.groups()) * static_cast<std::size_t>(stride));
-  }
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    for (const Column& c : bodies_[b]->layout().columns())
-      for (int k = 0; k < c.components; ++k) {
-        const std::vector<double>& x =
-            find(fmt::format("{}/{}/{}", bodies_[b]->name(), c.field->name, k)).doubles;
-        std::size_t at = 0;
-        for (std::size_t p = 0; p < grid_.patches.size(); ++p)
-          if (grid_.patches[p].body == static_cast<int>(b))
-            for (int i = 0; i < grid_.patches[p].count; ++i)
-              set_value(static_cast<int>(p), i, c.offset / kLanes + k, x.at(at++));
-        if (at != x.size())
-          throw InputError("checkpoint: column '" + std::string{c.field->name} +
-                           "' has the wrong length");
-      }
-  for (Patch& p : grid_.patches) {
-    const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
-    if (p.count > 0) pad(p, c.stride, c.mass);
-  }
-  grid_.rebuild(true);
-  step_->relink();
 }
 
 }  // namespace krater

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file output/checkpoint.hpp
-/// checkpoint.h5: every blob under /state, its order, shape and checksum beside it.
+/// checkpoint.h5: every blob under /state, their kinds and names in order in the text /order;
+/// sealed (output/seal.hpp).
 #include <string>
 
 #include "krater/output/results.hpp"

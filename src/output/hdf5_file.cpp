@@ -13,6 +13,7 @@
 
 #include "krater/core/errors.hpp"
 #include "output/atomic_file.hpp"
+#include "output/seal.hpp"
 
 namespace krater::output {
 namespace {
@@ -276,12 +277,15 @@ template std::vector<unsigned char> Node::read() const;
 
 // ---------------------------------------------------------------------------------------- files
 
-MemoryFile::MemoryFile(const std::string& path) : Node({}, path, Mode::write) {
+MemoryFile::MemoryFile(const std::string& path, Kind kind)
+    : Node({}, path, Mode::write), kind_(kind) {
   const QuietErrors quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = 1 << 22;
   require(H5Pset_fapl_core(access.id(), growth, false), "file in memory");
-  handle_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  if (kind == Kind::sealed) require(H5Pset_userblock(creation.id(), kSealBytes), "user block");
+  handle_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
   require(handle_.id(), "file in memory");
 }
 
@@ -294,8 +298,13 @@ void MemoryFile::save() {
   require(size, "size of the file");
   void* image = nullptr;
   require(H5Fget_vfd_handle(handle_.id(), H5P_DEFAULT, &image), "file in memory");
-  const char* bytes = *static_cast<char**>(image);
-  replace_file(file(), {bytes, static_cast<std::size_t>(size)});
+  char* bytes = *static_cast<char**>(image);
+  auto length = static_cast<std::size_t>(size);  // of what HDF5 wrote
+  if (kind_ == Kind::sealed) {
+    length += kSealBytes;
+    seal(bytes, length);
+  }
+  replace_file(file(), {bytes, length});
 }
 
 Node open_file(const std::string& path) {

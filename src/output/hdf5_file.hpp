@@ -81,8 +81,12 @@ class Node {
 /// A file under construction in memory. Objects made in it may outlive it but no longer matter.
 class MemoryFile : public Node {
  public:
-  explicit MemoryFile(const std::string& path);
+  enum class Kind { plain, sealed };  ///< sealed: output/seal.hpp
+  explicit MemoryFile(const std::string& path, Kind kind = Kind::plain);
   void save();  ///< to its path, all or nothing
+
+ private:
+  Kind kind_;
 };
 
 /// Opens a file for reading. Throws InputError: missing, unreadable, no HDF5 file, truncated.

@@ -119,6 +119,13 @@ void History::rewrite() {
   replace_file(csv(), text);
 }
 
+void History::require_columns(const std::vector<Quantity>& row) const {
+  if (columns_.empty() || same_columns(columns_, row)) return;
+  throw InputError(csv() +
+                   ": it has other columns than this run (another order of bodies, or other "
+                   "measures) and cannot be continued; choose another folder with -o");
+}
+
 void History::truncate_after(double time) {
   if (values_.empty()) return;
   // Counted from the end: times never decrease, and a NaN must not hide the rows after it.
@@ -138,9 +145,7 @@ void History::append(const std::vector<Quantity>& row) {
     values_.resize(row.size());
     rewrite();
   }
-  if (!same_columns(columns_, row)) {
-    throw OutputError(csv() + ": cannot be continued: it has other columns than this run");
-  }
+  if (!same_columns(columns_, row)) throw std::invalid_argument("history: other columns");
   for (std::size_t k = 0; k < row.size(); ++k) values_[k].push_back(row[k].value);
   saved_ = false;
   if (!appender_.is_open()) appender_.open(csv());

@@ -17,6 +17,7 @@ class History {
 
   void remove_all();
   void load();  ///< rows of an earlier run that is continued; half a last line is dropped
+  void require_columns(const std::vector<Quantity>& row) const;  ///< throws InputError: others
   void truncate_after(double time);
   void append(const std::vector<Quantity>& row);
   void save_copy(const TextAttributes& attributes);  ///< history.h5, when there is something new

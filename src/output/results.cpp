@@ -71,8 +71,9 @@ void ResultsFolder::set_attributes(TextAttributes attributes) {
   impl_->attributes = std::move(attributes);
 }
 
-void ResultsFolder::truncate_after(double time) {
+void ResultsFolder::continue_from(double time, const std::vector<Quantity>& row) {
   impl_->prepare();
+  impl_->history.require_columns(row);
   impl_->frames.truncate_after(time, impl_->attributes);
   impl_->history.truncate_after(time);
 }

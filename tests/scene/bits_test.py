@@ -61,7 +61,7 @@ def restart(name, values, rows):
           f"{name}: interrupted at step {s['steps']} of {total}")
     shutil.copytree(output, f"{output}_elsewhere")
     done = run(output, *values, extra=["--restart", f"{output}/checkpoint.h5"])
-    check(done.returncode == 0 and "the scene differs" not in done.stderr, f"{name}: continued",
+    check(done.returncode == 0 and "changed since" not in done.stderr, f"{name}: continued",
           done.stderr.strip().splitlines()[-1])
     same(f"{name}_1", output, f"{name}, restarted in its folder with another number of threads")
     other = f"{output}_elsewhere"

@@ -109,11 +109,11 @@ def restarts():
 
     restart("no such file", ["No such file"], "nothing.h5")
     restart("a folder", ["not a plain file"], "short")
-    restart("garbage", ["HDF5"], "garbage.h5")
+    restart("garbage", ["not a checkpoint"], "garbage.h5")
     restart("a file cut short", ["."], "cut.h5")
-    restart("a damaged file", ["damaged|checksum|cannot"], "flipped.h5")
+    restart("a damaged file", ["damaged"], "flipped.h5")
     restart("a frame", ["not a checkpoint"], "short/frames/000000.h5")
-    restart("text", ["not an HDF5 file"], "short/history.csv")
+    restart("text", ["not a checkpoint"], "short/history.csv")
     other = ["another"]
     restart("another scene", other, "short/checkpoint.h5", scene=ROOT / "inputs" / "copper_bar.yaml")
     restart("another dimension", other, "short/checkpoint.h5", "--set", "frame=3d", "--quiet")

@@ -129,7 +129,9 @@ def results_errors(folder, *options):
 def checkpoint_is_whole(path):
     try:
         with h5py.File(path, "r") as file:
-            return file.attrs["magic"] in ("krater checkpoint", b"krater checkpoint") and len(file["state"]) > 0
+            whole = len(file["state"]) > 0
+        with open(path, "rb") as file:
+            return whole and file.read(17) == b"krater checkpoint"
     except (OSError, KeyError):
         return False
 

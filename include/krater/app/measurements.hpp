@@ -32,13 +32,17 @@ class Measurements {
 
   /// Throws InputError for what cannot be measured.
   void check(const Simulation& sim) const;
+  /// Names and units of the columns of history.
+  std::vector<Quantity> titles(const Scene& scene) const;
   /// Columns of the next row of history. Remembers it.
   std::vector<Quantity> row(const Simulation& sim);
   /// "measures": value, unit, definition, reference and difference; "fragments": lists of pieces.
   void summarize(const Simulation& sim, Json& summary);
 
-  void save(Checkpoint& checkpoint) const;
-  void restore(const Checkpoint& checkpoint);
+  void save(Checkpoint& checkpoint, const Scene& scene) const;
+  /// Measures that the checkpoint does not know, or that have `changed` since, start here.
+  void restore(const Checkpoint& checkpoint, const Scene& scene,
+               const std::vector<std::string>& changed);
 
  private:
   std::vector<double> values(const Simulation& sim, bool all);

@@ -8,7 +8,13 @@
 
 namespace krater {
 
-enum ExitCode : int { kDone = 0, kBadInput = 2, kNumericalFailure = 3, kInterrupted = 4 };
+enum ExitCode : int {
+  kDone = 0,
+  kBadInput = 2,
+  kNumericalFailure = 3,
+  kInterrupted = 4,
+  kWarned = 5  ///< done, with warnings, under --strict
+};
 
 struct RunOptions {
   std::string scene;
@@ -17,6 +23,7 @@ struct RunOptions {
   std::string restart;                 ///< checkpoint file; empty: from the start
   int threads = 0;                     ///< 0: all
   bool quiet = false;
+  bool strict = false;  ///< a run that ends with warnings is not done
 };
 
 /// Returns an ExitCode; throws InputError before anything is written.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "krater/app/body.hpp"
+#include "krater/app/warnings.hpp"
 #include "krater/output/results.hpp"
 #include "krater/step/kernel_levels.hpp"
 #include "krater/step/mpm_step.hpp"
@@ -56,6 +57,8 @@ class Simulation {
   const RigidBodies& rigid() const { return rigid_; }
   const MpmStep& stepper() const { return *step_; }
   const Audit& audit() const { return step_->audit(); }
+  const Warnings& warnings() const { return warnings_; }
+  Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
   Totals totals(int body = -1) const;  ///< of one body, or of all
 
@@ -78,7 +81,8 @@ class Simulation {
  private:
   void place_points();
   void place_rigid_bodies();
-  void restore_rigid(const std::vector<double>& state);
+  void save_body(int body, Checkpoint& out) const;
+  void restore_body(int body, const Checkpoint& checkpoint);
   void load_rigid_bodies();  ///< body force on them
   void choose_first_step();
   void apply_body_force();
@@ -107,6 +111,7 @@ class Simulation {
   double max_rate_ = 0;
   int limiter_kind_ = 0;
   bool broken_ = false;
+  Warnings warnings_;
   std::int64_t steps_ = 0;
 };
 

@@ -102,7 +102,7 @@ using TextAttributes = std::vector<std::pair<std::string, std::string>>;
 /// Folder of one run: created when the first file is written, so that a scene with errors leaves
 /// nothing behind. Into a folder of an earlier run: a fresh run first removes that run's files
 /// (frames, history, checkpoint, summary) and nothing else; a resumed run keeps them (see
-/// `truncate_after`).
+/// `continue_from`).
 class ResultsFolder {
  public:
   explicit ResultsFolder(std::string path, bool resume = false);
@@ -114,8 +114,9 @@ class ResultsFolder {
   /// Root attributes (program, version, frame of reference, ...) of the HDF5 files written from now
   /// on.
   void set_attributes(TextAttributes attributes);
-  /// After a restart: drops frames and rows of the history later than `time` [s].
-  void truncate_after(double time);
+  /// After a restart: drops frames and rows of the history later than `time` [s]. Throws InputError
+  /// when the history there has other columns than this `row`.
+  void continue_from(double time, const std::vector<Quantity>& row);
   void write_frame(const OutputFrame& frame);  ///< frames/NNNNNN.h5, frames.h5, frames.xmf
   void write_history(
       const std::vector<Quantity>& row);  ///< a line of history.csv; the first column is time

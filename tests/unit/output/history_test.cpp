@@ -53,7 +53,7 @@ TEST_SUITE("unit") {
     write_file(folder / "run/history.csv", whole + "0.5,3");  // power failed in mid-line
     {
       ResultsFolder results(folder / "run", true);
-      results.truncate_after(0.1 * 2);
+      results.continue_from(0.1 * 2, row(0, 0));
       for (int i = 3; i < 5; ++i) results.write_history(row(0.1 * i, i));
     }
     CHECK(read_file(folder / "run/history.csv") == whole);
@@ -75,9 +75,11 @@ TEST_SUITE("unit") {
     {
       ResultsFolder results(folder / "run");
       results.write_history(row(0, 1));
-      CHECK_THROWS_AS(results.write_history({{"time", "s", 1}}), OutputError);
+      CHECK_THROWS_AS(results.write_history({{"time", "s", 1}}), std::invalid_argument);
       CHECK_THROWS_AS(results.write_history({}), std::invalid_argument);
     }
+    CHECK_THROWS_AS(ResultsFolder(folder / "run", true).continue_from(1, {{"time", "s", 1}}),
+                    InputError);
     write_file(folder / "run/history.csv", "a,b\n1,hello\n");
     ResultsFolder results(folder / "run", true);
     CHECK_THROWS_AS(results.write_history(row(1, 1)), InputError);
