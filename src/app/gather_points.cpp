@@ -57,6 +57,8 @@ void gather_patch(const Simulation& sim, std::size_t patch, const std::vector<Wa
   const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
   const int x = body.slot(field::Position::info), v = body.slot(field::Velocity::info);
   const int m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
+  const int failed = slot_of(body, field::Failed::info.name);
+  const double loose = 0.5 * body.material().density;
   const int at = static_cast<int>(patch);
   for (int i = 0; i < p.count; ++i) {
     Triple position{}, velocity{};
@@ -69,6 +71,8 @@ void gather_patch(const Simulation& sim, std::size_t patch, const std::vector<Wa
     out.mass.push_back(sim.value(at, i, m));
     out.density.push_back(sim.value(at, i, rho));
     out.body.push_back(p.body);
+    out.rubble.push_back(failed >= 0 && sim.value(at, i, failed) > 0.5 &&
+                         out.density.back() < loose);
     for (const WantedScalar& w : wanted)
       w.values->push_back(w.slot < 0 ? 0.0 : sim.value(at, i, w.slot));
   }

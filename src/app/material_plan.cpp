@@ -15,6 +15,7 @@ MaterialPlan material_plan(const MaterialOptions& material) {
   plan.rate = material.rate, plan.coupling = material.coupling;
   plan.degrade = material.degrade_pressure;
   if (material.spall_strength) plan.spall_strength = *material.spall_strength;
+  plan.spall_action = material.spall_action;
   if (material.viscosity)
     plan.q_lin = material.viscosity->values.at(0), plan.q_quad = material.viscosity->values.at(1);
   return plan;

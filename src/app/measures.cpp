@@ -185,6 +185,7 @@ BodyPoints filtered(const BodyPoints& points, const K& keep) {
     out.mass.push_back(points.mass[p]);
     out.density.push_back(points.density[p]);
     if (!points.body.empty()) out.body.push_back(points.body[p]);
+    if (!points.rubble.empty()) out.rubble.push_back(points.rubble[p]);
     for (auto& [name, values] : out.scalars) values.push_back(points.scalars.at(name)[p]);
   }
   return out;

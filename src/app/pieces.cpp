@@ -18,6 +18,7 @@ constexpr double kFarthest = 1 << 30;  // cells: a key is 32 bits wide
 struct Cell {
   BlockKey key;
   int body;
+  bool holds;  ///< not of rubble alone
 };
 
 class Forest {
@@ -71,10 +72,12 @@ std::vector<Cell> occupied_cells(const BodyPoints& points, const MeasureContext&
     const bool same = p > 0 && cells[static_cast<std::size_t>(of[p - 1])].key == key &&
                       cells[static_cast<std::size_t>(of[p - 1])].body == body;
     of[p] = same ? of[p - 1] : index.find(key, body);
-    if (of[p] >= 0) continue;
-    of[p] = static_cast<int>(cells.size());
-    index.insert(key, body, of[p]);
-    cells.push_back({key, body});
+    if (of[p] < 0) {
+      of[p] = static_cast<int>(cells.size());
+      index.insert(key, body, of[p]);
+      cells.push_back({key, body, false});
+    }
+    if (!points.is_rubble(p)) cells[static_cast<std::size_t>(of[p])].holds = true;
   }
   return cells;
 }
@@ -106,7 +109,8 @@ Pieces connected_pieces(const BodyPoints& points, const MeasureContext& context)
       BlockKey key = cells[c].key;
       for (std::size_t a = 0; a < 3; ++a) key.i[a] += step.i[a];
       const int beside = index.find(key, cells[c].body);
-      if (beside >= 0) forest.join(static_cast<int>(c), beside);
+      if (beside >= 0 && (cells[c].holds || cells[static_cast<std::size_t>(beside)].holds))
+        forest.join(static_cast<int>(c), beside);
     }
 
   constexpr double inf = std::numeric_limits<double>::infinity();

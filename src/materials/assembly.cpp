@@ -36,6 +36,17 @@ struct Assembler {
            law_degrades(plan.damage.law, plan.damage.values, plan.constants);
   }
   bool carries() const { return plan.damage.law >= 0 || std::isfinite(plan.spall_strength); }
+  bool parts() const {
+    return std::isfinite(plan.spall_strength) && plan.spall_action == SpallAction::fail;
+  }
+  Integrity integrity() const {
+    if (plan.damage.law >= 0) return Integrity::damaged;
+    return parts() ? Integrity::failing : Integrity::sound;
+  }
+  Tension tension() const {
+    if (parts()) return Tension::parting;
+    return carries() ? Tension::carried : Tension::own;
+  }
 
   void add_part(Part part, const PlannedLaw& law, const std::string& name) {
     add(name, factory.part({.part = part,
@@ -43,7 +54,7 @@ struct Assembler {
                             .values = law.values,
                             .constants = plan.constants,
                             .rate = plan.rate,
-                            .damaged = plan.damage.law >= 0,
+                            .integrity = integrity(),
                             .degrades = degrades(),
                             .degrade = plan.degrade},
                            layout));
@@ -67,10 +78,14 @@ struct Assembler {
   }
 
   void add_eos() {
-    if (plan.eos.law < 0 || !carries()) return add_law(plan.eos);
-    add("eos: " + info(plan.eos).name + ", carried",
-        factory.carrying_eos(plan.eos.law, plan.eos.values, plan.constants, plan.spall_strength,
-                             layout));
+    if (plan.eos.law < 0) return;
+    add("eos: " + info(plan.eos).name + (carries() ? ", carried" : "") + (parts() ? ", spall" : ""),
+        factory.eos({.law = plan.eos.law,
+                     .values = plan.eos.values,
+                     .constants = plan.constants,
+                     .tension = tension(),
+                     .spall_strength = plan.spall_strength},
+                    layout));
   }
 
   void add_heating() {
@@ -92,7 +107,7 @@ struct Assembler {
 std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialPlan& plan,
                                     Layout& layout) {
   Assembler all{factory, plan, layout, {}};
-  const bool split = plan.damage.law >= 0 || plan.rate != Rate::truesdell;
+  const bool split = all.integrity() != Integrity::sound || plan.rate != Rate::truesdell;
   // Who needs F must have declared it before the kinematics stage looks for it.
   const bool whole_stress = plan.strength.law >= 0 && info(plan.strength).whole_stress;
   if (whole_stress || plan.rate == Rate::green_naghdi)

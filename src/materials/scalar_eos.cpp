@@ -20,13 +20,19 @@ class Functions final : public ScalarEos {
     e0 = energy_at_start(law), p0 = pressure_at_start(law);
   }
   double pressure(double rho, double e) const override {
-    return pressure_at(law_, rho, 1.0 / rho, e);
+    return pressure_at(at_start(law_), rho, 1.0 / rho, e);
   }
   double bulk_modulus(double rho, double e) const override {
-    return law_.bulk_modulus(rho, 1.0 / rho, pressure(rho, e), e);
+    const double v = 1.0 / rho;
+    if constexpr (OwnsState<Law>) {
+      return law_.at(at_start(law_).after(rho, v, e)).bulk_modulus(rho, v, pressure(rho, e), e);
+    } else {
+      return law_.bulk_modulus(rho, v, pressure(rho, e), e);
+    }
   }
   bool beyond_pole(double rho) const override {
-    if constexpr (requires { law_.beyond_pole(rho); }) return law_.beyond_pole(rho);
+    if constexpr (requires { at_start(law_).beyond_pole(rho); })
+      return at_start(law_).beyond_pole(rho);
     return false;
   }
 

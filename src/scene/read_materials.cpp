@@ -15,9 +15,10 @@ namespace {
 
 constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, kRequired,
                                  "density at rest"};
-constexpr ParameterInfo kSpall{
-    "spall_strength", "Pa", Range::positive, kRequired, "largest tension that the material carries",
-    "spall"};
+constexpr ParameterInfo kSpallShort{"spall_strength", "Pa", Range::positive, kRequired,
+                                    "tension at which the material parts"};
+constexpr ParameterInfo kSpall{"strength", "Pa", Range::positive, kRequired,
+                               "tension at which the material parts"};
 constexpr ParameterInfo kTemperature{"initial_temperature", "K", Range::positive, 293,
                                      "at the start"};
 
@@ -119,7 +120,9 @@ struct LawReader {
   void read_damage() {
     const Node* node = material.find_block("damage");
     const Node* failure = material.find_block("failure");
-    if (failure && !node) material.fail(*failure, "needs damage: nothing else makes points fail");
+    if (failure && !node && !spalls())
+      material.fail(*failure, "needs damage or a spall that fails: nothing else makes points fail");
+    if (failure || node) read_failure(failure);
     if (!node) return;
     Node resolved, law = *node;
     if (node->kind == Node::Kind::map) {
@@ -144,12 +147,40 @@ struct LawReader {
     }
     options.damage = read_law("damage", law, resolved);
     material.record("damage", resolved);
+  }
+
+  bool spalls() const {
+    return options.spall_strength && options.spall_action == SpallAction::fail;
+  }
+
+  void read_failure(const Node* failure) {
     Block action{failure, material.place().path + ".failure", material.place(), reading.problems};
     options.failure = action.choice<FailureAction>(
         "action",
         {{"strength_loss", FailureAction::strength_loss}, {"remove", FailureAction::remove}},
         options.failure);
     material.record("failure", action.finish());
+  }
+
+  /// `spall: {strength: 1.2 GPa, action: fail}`; `spall_strength: 1.2 GPa`, or `spall: 1.2 GPa`, is
+  /// the same.
+  void read_spall() {
+    std::optional<double> brief = material.optional_number(kSpallShort);
+    const Node* node = material.find_block("spall");
+    if (brief && node)
+      material.fail(*node, "spall_strength gives the strength already: keep one of the two");
+    if (node && node->kind == Node::Kind::scalar) {
+      brief = read_number(*node, kSpall.unit, kSpall.range, reading.problems);
+      node = nullptr;
+    }
+    if (!brief && !node) return;
+    Block block{node, material.place().path + ".spall", material.place(), reading.problems};
+    if (brief) block.record("strength", number_node(*brief));
+    options.spall_strength = brief ? *brief : block.number(kSpall);
+    options.spall_action = block.choice<SpallAction>(
+        "action", {{"fail", SpallAction::fail}, {"limit", SpallAction::limit}},
+        options.spall_action);
+    material.record("spall", block.finish());
   }
 
   void read_rate() {
@@ -174,7 +205,8 @@ struct LawReader {
 };
 
 void check_damage(const MaterialOptions& material, Block& block) {
-  if (!material.eos && material.spall_strength) block.fail("spall_strength needs an eos");
+  if (!material.eos && material.spall_strength)
+    block.fail("spall needs an eos: it acts on the pressure");
   if (!material.damage) return;
   const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
   if (!strength || !strength->yields) {
@@ -273,10 +305,8 @@ Node read_material(const Node& node, Reading& reading) {
   material.eos = laws.read_named("eos");
   material.strength = laws.read_named("strength");
   laws.read_rate();
+  laws.read_spall();
   laws.read_damage();
-  material.spall_strength = block.optional_number(kSpall);
-  if (material.spall_strength)
-    block.record("spall_strength", number_node(*material.spall_strength));
   material.heating = laws.read_named("heating");
   material.viscosity = laws.read_unnamed("viscosity");
   if (constants.bulk_given && !constants.bulk_used && !reading.problems.any()) {

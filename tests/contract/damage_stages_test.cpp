@@ -304,6 +304,45 @@ TEST_SUITE("contract") {
     }
   }
 
+  TEST_CASE("spall that fails: the point parts once, keeps the energy, bears compression only") {
+    for (const char* strength : {"", "elastic", "von_mises"}) {
+      CAPTURE(strength);
+      Recipe recipe{.strength = strength,
+                    .eos = "mie_gruneisen_shock",
+                    .viscosity = false,
+                    .spall_strength = 1e9,
+                    .spall_action = SpallAction::fail};
+      Body body{*stage_factory_isa_portable(), recipe, 1, 1};
+      const auto stretch = [&](double by) {
+        body.local("step_gradient", 0, 0) = by;
+        body.step(1e-8);
+      };
+      double before = 0.0;
+      int steps = 0;
+      while (body.state("failed", 0) == 0.0 && steps++ < 200) {
+        before = body.state("pressure", 0);
+        stretch(1e-4);
+      }
+      CHECK(before == doctest::Approx(-1e9).epsilon(0.03));  // the strength, but for a step
+      CHECK(before > -1e9);
+      CHECK(body.state("pressure", 0) == 0.0);
+      CHECK(body.ledger.spalls == 1.0);
+      CHECK(body.ledger.failures == 1.0);
+      const double energy = body.state("internal_energy", 0);
+      CHECK(energy > 0.0);
+      for (int i = 0; i < 50; ++i) {
+        stretch(1e-3);
+        CHECK(body.state("pressure", 0) == 0.0);
+        if (*strength != 0) CHECK(body.state("deviatoric_stress", 0) == 0.0);
+      }
+      CHECK(body.state("internal_energy", 0) >= 0.9 * energy);  // what it had stored is heat now
+      CHECK(body.state("internal_energy", 0) <= energy * (1.0 + 1e-12));
+      for (int i = 0; i < 80; ++i) stretch(-1e-3);
+      CHECK(body.state("pressure", 0) > 1e8);  // closed again
+      CHECK(body.ledger.spalls == 1.0);
+    }
+  }
+
   TEST_CASE("damage that has not begun changes no bit of the stress") {
     for (const char* strength :
          {"von_mises", "johnson_cook", "steinberg_guinan", "drucker_prager"}) {

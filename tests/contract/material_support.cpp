@@ -102,6 +102,13 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"mie_gruneisen_shock.c0", 3940.0},
       {"mie_gruneisen_shock.S1", 1.489},
       {"mie_gruneisen_shock.gamma0", 2.02},
+      {"p_alpha.solid_density", 11200.0},
+      {"p_alpha.c0", 3940.0},
+      {"p_alpha.S1", 1.489},
+      {"p_alpha.gamma0", 2.02},
+      {"p_alpha.elastic_pressure", 0.2e9},
+      {"p_alpha.compaction_pressure", 2e9},
+      {"p_alpha.exponent", 2.0},
       {"ideal_gas.gamma", 1.4},
       {"ideal_gas.initial_pressure", 1e9},
       {"stiffened_gas.gamma", 4.0},
@@ -245,6 +252,13 @@ std::vector<Recipe> all_recipes() {
                      .spall_strength = 1e8,
                      .thermal = true});
   recipes.push_back({.strength = "elastic", .eos = "mie_gruneisen_shock", .spall_strength = 2e8});
+  for (const char* strength : {"", "elastic", "johnson_cook", "drucker_prager"})
+    recipes.push_back({.strength = strength,
+                       .eos = "mie_gruneisen_shock",
+                       .heating = std::string{"johnson_cook"} == strength,
+                       .rate = *strength == 'j' ? Rate::jaumann : Rate::truesdell,
+                       .spall_strength = 2e8,
+                       .spall_action = SpallAction::fail});
   for (const std::string& eos : law_names("eos")) {  // fluids
     recipes.push_back({.strength = "", .eos = eos, .viscosity = eos != "linear"});
   }
@@ -295,6 +309,7 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
       planned("heating", recipe.heating ? "plastic_work" : (recipe.thermal ? "energy" : ""));
   plan.rate = recipe.rate, plan.coupling = recipe.coupling, plan.degrade = recipe.degrade;
   if (recipe.spall_strength > 0) plan.spall_strength = recipe.spall_strength;
+  plan.spall_action = recipe.spall_action;
   if (recipe.viscosity) plan.q_lin = 0.3, plan.q_quad = 2.0;
   stages_ = make_stages(factory, plan, layout_);
   layout_.check();

@@ -41,6 +41,7 @@ struct Recipe {
   Coupling coupling = Coupling::effective;
   DegradePressure degrade = DegradePressure::tension;
   double spall_strength = 0;  ///< 0: none
+  SpallAction spall_action = SpallAction::limit;
   /// Instead of typical_parameters: "law.key" and value.
   std::map<std::string, double> parameters = {};
   MaterialConstants constants = kCopper;

@@ -73,11 +73,15 @@ struct BodyPoints {
   std::vector<double> mass, density;
   std::map<std::string, std::vector<double>> scalars;
   std::vector<int> body;  ///< index in the scene; empty: one body
+  /// Rubble: failed and at less than half of the density at rest, so that nothing of it holds
+  /// together; empty: none.
+  std::vector<bool> rubble;
   /// Of points that change no more; none: every measure looks for itself.
   std::shared_ptr<SurfaceMemo> memo;
 
   std::size_t count() const { return x.size(); }
   int body_of(std::size_t p) const { return body.empty() ? 0 : body[p]; }
+  bool is_rubble(std::size_t p) const { return !rubble.empty() && rubble[p]; }
 };
 
 struct MeasureContext {

@@ -7,6 +7,10 @@
 /// stretched to twice its length holds together, and two fragments are told apart once a gap of two
 /// cells lies between them. Pieces never join points of different bodies.
 ///
+/// Rubble (BodyPoints::rubble) holds nothing together: cells of nothing else are joined to
+/// neighbours that hold, not to one another. What a spall plane opens parts so, although points of
+/// it fill the gap; a failed point in a crowd at its density is joined as any other.
+///
 /// Cost: one look-up per change of cell from point to point, and 4 (2D) or 13 (3d) per cell. The
 /// result does not depend on the order of the points but for the last bits of the sums.
 #include <cstddef>

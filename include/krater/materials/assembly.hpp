@@ -3,8 +3,8 @@
 /// \file materials/assembly.hpp
 /// A material put together: which stages, in which order. Sound material with the default rate:
 ///   kinematics, viscosity, strength (trial, return and work in one), eos, heating, signal speed.
-/// With damage or another rate the strength is several stages, which hand the effective deviator on
-/// in a local record:
+/// With damage, a spall that fails or another rate the strength is several stages, which hand the
+/// effective deviator on in a local record:
 ///   start -> trial -> return -> growth of damage -> carried stress             coupling: effective
 ///   start -> trial -> flow stress -> growth -> return with damage -> carried   coupling: rate
 /// so that neither rates nor damage laws multiply the compiled yield laws.
@@ -36,7 +36,8 @@ struct MaterialPlan {
   Coupling coupling = Coupling::effective;
   DegradePressure degrade = DegradePressure::tension;
   double spall_strength = std::numeric_limits<double>::infinity();  ///< infinite: none
-  double q_lin = 0, q_quad = 0;                                     ///< of the viscosity
+  SpallAction spall_action = SpallAction::fail;
+  double q_lin = 0, q_quad = 0;  ///< of the viscosity
 };
 
 /// The stages in the order in which they are applied. The method has declared its columns and

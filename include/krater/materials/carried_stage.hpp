@@ -84,7 +84,8 @@ class SoundStage final : public Stage {
   LocalOutput<field::PlasticWork> plastic_work_;
 };
 
-template <bool dilates>
+/// `grows`: a damage law says how phi grows; otherwise points fail by spall alone (eos_stage.hpp).
+template <bool dilates, bool grows>
 class CarriedStage final : public Stage {
  public:
   CarriedStage(bool degrades, DegradePressure mode, Layout& layout)
@@ -92,28 +93,35 @@ class CarriedStage final : public Stage {
         loss_{pressure_loss(degrades, mode)},
         flow_{layout},
         s_{layout.state<field::DeviatoricStress>(0.0, kName)},
-        phi_{layout.state<field::Damage>(0.0, kName)},
         failed_{layout.state<field::Failed>(0.0, kName)},
-        eps_{layout.input<field::PlasticStrain>(kName)},
         mass_{layout.input<field::Mass>(kName)},
         strain_{layout.local_input<field::StrainStep>(kName)},
         volumes_{layout.local_input<field::SpecificVolumes>(kName)},
         effective_{layout.local_input<field::EffectiveDeviator>(kName)},
-        q_{layout.local_input<field::EquivalentStress>(kName)},
-        increment_{layout.local_input<field::PlasticIncrement>(kName)},
-        growth_{layout.local_input<field::DamageGrowth>(kName)},
-        snap_back_{layout.local_optional<field::SnapBack>()},
+        q_{layout.local_optional<field::EquivalentStress>()},
         work_{layout.local_output<field::SpecificWork>(kName)},
         shear_{layout.local_output<field::ShearModulus>(kName)},
         plastic_work_{layout.local_output<field::PlasticWork>(kName)},
-        carried_loss_{layout.local_output<field::CarriedLoss>(kName)} {}
+        carried_loss_{layout.local_output<field::CarriedLoss>(kName)} {
+    if constexpr (grows) {
+      phi_ = layout.state<field::Damage>(0.0, kName);
+      eps_ = layout.input<field::PlasticStrain>(kName);
+      increment_ = layout.local_input<field::PlasticIncrement>(kName);
+      growth_ = layout.local_input<field::DamageGrowth>(kName);
+      snap_back_ = layout.local_optional<field::SnapBack>();
+    }
+  }
 
   StageOrder order() const override { return StageOrder::carried; }
 
   void apply(const BatchData& batch) const override {
     for (int g = 0; g < batch.groups; ++g) {
-      const Mask failed = damage(batch, g);
-      carry(batch, g, failed);
+      if constexpr (grows) {
+        const Mask failed = damage(batch, g);
+        carry(batch, g, failed, view(batch, phi_)(g));
+      } else {
+        carry(batch, g, view(batch, failed_)(g) > Pack(0.5), Pack(0.0));
+      }
     }
   }
 
@@ -139,12 +147,11 @@ class CarriedStage final : public Stage {
     return old | fresh;
   }
 
-  KRATER_FORCE_INLINE void carry(const BatchData& batch, int g, Mask failed) const {
+  KRATER_FORCE_INLINE void carry(const BatchData& batch, int g, Mask failed, Pack phi) const {
     const auto s_p = view(batch, s_);
     const auto v = view(batch, volumes_);
     const auto work = view(batch, work_);
     const auto loss = view(batch, carried_loss_);
-    const Pack phi = view(batch, phi_)(g);
     const Pack intact = select(failed, Pack(0.0), fnma(Pack(degrades_), phi, Pack(1.0)));
     const Sym3<Pack> s = intact * load_sym3(view(batch, effective_), g);
     const Sym3<Pack> dE = load_sym3(view(batch, strain_), g);
@@ -163,21 +170,21 @@ class CarriedStage final : public Stage {
   PressureLoss loss_;
   PlasticWorkOfStep<dilates> flow_;
   State<field::DeviatoricStress> s_;
-  State<field::Damage> phi_;
   State<field::Failed> failed_;
-  Input<field::PlasticStrain> eps_;
   Input<field::Mass> mass_;
   LocalInput<field::StrainStep> strain_;
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::EffectiveDeviator> effective_;
-  LocalInput<field::EquivalentStress> q_;
-  LocalInput<field::PlasticIncrement> increment_;
-  LocalInput<field::DamageGrowth> growth_;
-  LocalOptional<field::SnapBack> snap_back_;
+  LocalOptional<field::EquivalentStress> q_;  // yielding laws only
   LocalOutput<field::SpecificWork> work_;
   LocalOutput<field::ShearModulus> shear_;
   LocalOutput<field::PlasticWork> plastic_work_;
   LocalOutput<field::CarriedLoss> carried_loss_;
+  State<field::Damage> phi_{-1};  // these five: where damage grows
+  Input<field::PlasticStrain> eps_{-1};
+  LocalInput<field::PlasticIncrement> increment_{-1};
+  LocalInput<field::DamageGrowth> growth_{-1};
+  LocalOptional<field::SnapBack> snap_back_{-1};
 };
 
 }  // namespace krater::inline KRATER_ISA

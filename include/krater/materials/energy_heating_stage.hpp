@@ -11,8 +11,9 @@
 
 namespace krater::inline KRATER_ISA {
 
-/// `Law`: the equation of state. `carries`: the carried pressure may not be its own (damage, spall,
-/// a limit of tension). Voids of a dilatant strength are outside of it.
+/// `Law`: the equation of state, of a porous material that of its solid. `carries`: the carried
+/// pressure may not be its own (damage, spall, a limit of tension). Voids of a dilatant strength
+/// are outside of it.
 template <class Law, bool carries>
 class EnergyHeatingStage final : public Stage {
  public:
@@ -28,6 +29,7 @@ class EnergyHeatingStage final : public Stage {
         s_{layout.optional<field::DeviatoricStress>()},
         phi_{layout.optional<field::Damage>()},
         voids_{layout.optional<field::VoidVolume>()},
+        distension_{layout.optional<field::Distension>()},
         volumes_{layout.local_input<field::SpecificVolumes>(kName)},
         shear_{layout.local_optional<field::ShearModulus>()} {
     isentrope_.tabulate(law, constants.initial_temperature);
@@ -53,7 +55,13 @@ class EnergyHeatingStage final : public Stage {
   KRATER_FORCE_INLINE Pack density(const BatchData& batch, int g, Pack e) const {
     Pack rho = view(batch, rho_)(g);
     if (voids_.offset >= 0) rho = 1.0 / (view(batch, volumes_)(g, 1) - view(batch, voids_)(g));
-    if constexpr (carries) return solid_density(law_, rho, view(batch, p_)(g), e);
+    Pack p = view(batch, p_)(g);
+    if (distension_.offset >= 0) {
+      const Pack alpha = view(batch, distension_)(g);
+      rho = alpha * rho;
+      p = alpha * p;
+    }
+    if constexpr (carries) return solid_density(law_, rho, p, e);
     return rho;
   }
 
@@ -75,6 +83,7 @@ class EnergyHeatingStage final : public Stage {
   Optional<field::DeviatoricStress> s_;
   Optional<field::Damage> phi_;
   Optional<field::VoidVolume> voids_;
+  Optional<field::Distension> distension_;
   LocalInput<field::SpecificVolumes> volumes_;
   LocalOptional<field::ShearModulus> shear_;
 };

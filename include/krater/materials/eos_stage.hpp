@@ -9,7 +9,12 @@
 /// w is 1 - what damage takes of the pressure (Decision 6, materials/carried_stage.hpp); a sound
 /// material without spall strength has p^ = p~. The carried pressure does the work and enters
 /// momentum; CCF (55) as printed omits the last term.
-/// Where p is not linear in e (tillotson), A and B rho are the tangent at e_{n+1}, found by Newton.
+/// Spall, `action: fail`: where w p~ < -spall_strength the point fails. Its tension is gone before
+/// e is formed, so what the tension had stored stays in e as heat; the deviator follows in the next
+/// step. From then on the point bears compression only. `action: limit`: the line above, and
+/// nothing parts.
+/// Where p is not linear in e (tillotson, p_alpha), A and B rho are the tangent at e_{n+1}, found
+/// by Newton; a law with history (materials/law_state.hpp) is taken at its state of the start.
 /// A strength law may keep voids out of the equation of state, v - void_volume, and limit the
 /// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
 /// c^2 = K_s/rho, floored at 0.01 c0^2 and counted.
@@ -111,13 +116,14 @@ KRATER_FORCE_INLINE CarriedEnergyStep<Real> close_carried(const PressureSplit<Re
           carried < Real(-spall_strength)};
 }
 
-/// `carries`: damage or a spall strength stands between p~ and p^. `has_voids`: the strength law
-/// keeps voids out of the equation of state and limits the effective tension.
-template <class Law, bool carries, bool has_voids>
+/// `has_voids`: the strength law keeps voids out of the equation of state and limits the effective
+/// tension.
+template <class Law, Tension tension, bool has_voids>
 class EosStage final : public Stage {
  public:
   EosStage(const Law& law, double spall_strength, Layout& layout)
       : law_{law},
+        state_{law, layout},
         spall_strength_{spall_strength},
         rho_{layout.input<field::Density>(Law::name)},
         p_{layout.state<field::Pressure>(pressure_at_start(law), Law::name)},
@@ -126,6 +132,7 @@ class EosStage final : public Stage {
         volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
         work_{layout.local_input<field::SpecificWork>(Law::name)} {
     if constexpr (carries) loss_ = layout.local_optional<field::CarriedLoss>();
+    if constexpr (parts) failed_ = layout.state<field::Failed>(0.0, Law::name);
     if constexpr (has_voids) {
       voids_ = layout.input<field::VoidVolume>(Law::name);
       tension_limit_ = layout.local_input<field::TensionLimit>(Law::name);
@@ -143,6 +150,7 @@ class EosStage final : public Stage {
     const auto w_p = view(batch, work_);
     const Pack floor = Pack(0.01 * law_.c0 * law_.c0);
     for (int g = 0; g < batch.groups; ++g) {
+      const auto& law = state_.at(law_, batch, g);
       Pack rho = rho_p(g);
       Pack v = v_p(g, 1);
       const Pack per_rho = v;
@@ -154,20 +162,11 @@ class EosStage final : public Stage {
       EnergyStep<Pack> step;
       Pack effective;
       if constexpr (carries) {
-        const auto loss = view(batch, loss_);
-        const auto carried = [&](const PressureSplit<Pack>& s) {
-          return close_carried(s, p_p(g), e_p(g), dv, w_p(g), loss(g, 0), loss(g, 1),
-                               spall_strength_);
-        };
-        Mask found;
-        const auto energy = [&](const PressureSplit<Pack>& s) { return carried(s).step.energy; };
-        const auto all = carried(split_of_step(law_, rho, v, e_p(g), energy, found));
+        const auto all = carried(batch, g, law, {rho, v, dv});
         step = all.step;
-        step.denominator = select(found, step.denominator, Pack(0.0));
         effective = all.effective;
-        if (any(all.spalled)) batch.ledger->spalls += count_points(batch, g, all.spalled);
       } else {
-        step = advance_energy(law_, rho, v, p_p(g), e_p(g), dv, w_p(g));
+        step = advance_energy(law, rho, v, p_p(g), e_p(g), dv, w_p(g));
         effective = step.pressure;
       }
       if constexpr (has_voids) {
@@ -180,19 +179,61 @@ class EosStage final : public Stage {
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
       p_p.set(g, step.pressure);
       e_p.set(g, step.energy);
-      const Pack c_squared = law_.bulk_modulus(rho, v, effective, step.energy) * per_rho;
+      if constexpr (OwnsState<Law>) state_.set(batch, g, law.after(rho, v, step.energy));
+      const auto& after = state_.at(law_, batch, g);
+      const Pack c_squared = after.bulk_modulus(rho, v, effective, step.energy) * per_rho;
       c_p.set(g, sqrt(max(floor, c_squared)));  // this order keeps a NaN
       const Mask floored = c_squared < floor;
       if (any(floored)) batch.ledger->sound_speed_floors += count_points(batch, g, floored);
-      if constexpr (requires { law_.beyond_pole(rho); }) {
-        const Mask beyond = law_.beyond_pole(rho);
+      if constexpr (requires { after.beyond_pole(rho); }) {
+        const Mask beyond = after.beyond_pole(rho);
         if (any(beyond)) batch.ledger->hugoniot_poles += count_points(batch, g, beyond);
       }
     }
   }
 
  private:
+  static constexpr bool carries = tension != Tension::own, parts = tension == Tension::parting;
+
+  /// Density and volume that the law sees, and the step's change of the latter.
+  struct Volume {
+    Pack rho, v, dv;
+  };
+
+  /// `law`: as it is at the state of the group.
+  KRATER_FORCE_INLINE CarriedEnergyStep<Pack> carried(const BatchData& batch, int g,
+                                                      const auto& law, const Volume& x) const {
+    const auto loss = view(batch, loss_);
+    const Pack p = view(batch, p_)(g), e = view(batch, e_)(g), work = view(batch, work_)(g);
+    Pack tension_loss = loss(g, 0);
+    if constexpr (parts)
+      tension_loss = select(view(batch, failed_)(g) > Pack(0.5), Pack(1.0), tension_loss);
+    const auto closed = [&](const PressureSplit<Pack>& s) {
+      return close_carried(s, p, e, x.dv, work, tension_loss, loss(g, 1), spall_strength_);
+    };
+    const auto energy = [&](const PressureSplit<Pack>& s) { return closed(s).step.energy; };
+    Mask found;
+    CarriedEnergyStep<Pack> all = closed(split_of_step(law, x.rho, x.v, e, energy, found));
+    if (any(all.spalled)) batch.ledger->spalls += count_points(batch, g, all.spalled);
+    if constexpr (parts) {
+      if (any(all.spalled)) {
+        part(batch, g, all.spalled);
+        tension_loss = select(all.spalled, Pack(1.0), tension_loss);
+        all = closed(split_of_step(law, x.rho, x.v, e, energy, found));
+      }
+    }
+    all.step.denominator = select(found, all.step.denominator, Pack(0.0));
+    return all;
+  }
+
+  void part(const BatchData& batch, int g, Mask spalled) const {
+    const auto failed = view(batch, failed_);
+    failed.set(g, select(spalled, Pack(1.0), failed(g)));
+    batch.ledger->failures += count_points(batch, g, spalled);
+  }
+
   Law law_;
+  StateOf<Law> state_;
   double spall_strength_;
   Input<field::Density> rho_;
   State<field::Pressure> p_;
@@ -201,6 +242,7 @@ class EosStage final : public Stage {
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::SpecificWork> work_;
   LocalOptional<field::CarriedLoss> loss_{-1};  // absent: spall of sound material
+  State<field::Failed> failed_{-1};             // where points part
   Input<field::VoidVolume> voids_{-1};
   LocalInput<field::TensionLimit> tension_limit_{-1};
 };

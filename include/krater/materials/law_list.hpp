@@ -12,6 +12,7 @@
 #include "krater/materials/eos/linear.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
+#include "krater/materials/eos/p_alpha.hpp"
 #include "krater/materials/eos/stiffened_gas.hpp"
 #include "krater/materials/eos/tillotson.hpp"
 #include "krater/materials/heating/internal_energy.hpp"
@@ -52,6 +53,7 @@ using AllLaws = LawList<Elastic,                 //
                         LinearEos,               //
                         MieGruneisenPolynomial,  //
                         MieGruneisenShock,       //
+                        PAlpha,                  //
                         IdealGas,                //
                         StiffenedGas,            //
                         Jwl,                     //

@@ -7,7 +7,8 @@
 ///   momentum  p - p0 = rho0 Us up
 ///   energy    e - e0 = (p + p0)(1/rho0 - 1/rho)/2
 /// The functions are the laws' own, those that the stages apply to batches; nothing is evaluated
-/// twice. Assumption: a fluid (no deviator), one shock, no phase transition.
+/// twice. Assumption: a fluid (no deviator), one shock, no phase transition. A law with history is
+/// taken on first loading from its state at the start.
 #include <memory>
 
 #include "krater/materials/stage.hpp"

@@ -55,8 +55,18 @@ enum class DegradePressure : int { tension, none, all };
 /// booked.
 enum class FailureAction : int { strength_loss, remove };
 
+/// What happens where the tension reaches the spall strength: the point fails, and the material
+/// parts there; or the tension is cut off at the strength for ever, a bound that parts nothing.
+enum class SpallAction : int { fail, limit };
+
+/// Can the points of a body fail, and does damage grow before?
+enum class Integrity : int { sound, failing, damaged };
+/// What stands between the pressure of the equation of state and the carried one: nothing; damage
+/// or a limit of tension; a spall strength at which points fail.
+enum class Tension : int { own, carried, parting };
+
 /// The deviator's update in stages of its own (materials/assembly.hpp says in which order): where a
-/// scene has damage or a rate other than truesdell.
+/// scene has damage, a spall that fails or a rate other than truesdell.
 enum class Part : int { start, trial, flow_stress, plastic_return, rate_return, growth, carried };
 struct PartRequest {
   Part part;
@@ -64,9 +74,18 @@ struct PartRequest {
   const double* values = nullptr;
   MaterialConstants constants;
   Rate rate = Rate::truesdell;
-  bool damaged = false;   ///< damage is a column of this body
-  bool degrades = false;  ///< and the stress is (1 - phi) s~; otherwise phi only tells the failure
+  Integrity integrity = Integrity::sound;
+  bool degrades = false;  ///< the stress is (1 - phi) s~; otherwise phi only tells the failure
   DegradePressure degrade = DegradePressure::tension;
+};
+
+/// An equation of state between points that may be damaged or spall.
+struct EosRequest {
+  int law = -1;
+  const double* values = nullptr;
+  MaterialConstants constants;
+  Tension tension = Tension::own;
+  double spall_strength = 0;  ///< [Pa], infinite: none; of no meaning where tension is own
 };
 
 /// `heating: energy`: the temperature of an equation of state (heating/internal_energy.hpp).
@@ -81,14 +100,11 @@ struct EnergyHeatingRequest {
 
 /// Makes stages of one instruction-set level (materials/stages_hot.cpp is compiled once per level).
 struct StageFactory {
-  /// `law`: index in catalogue() (materials/catalogue.hpp); `values`: its parameters in declared
-  /// order. Ownership passes to the caller.
+  /// `law`: index in catalogue() (materials/catalogue.hpp), of a family but eos and damage;
+  /// `values`: its parameters in declared order. Ownership passes to the caller.
   Stage* (*make)(int law, const double* values, const MaterialConstants& constants, Layout& layout);
   Stage* (*part)(const PartRequest& request, Layout& layout);
-  /// An equation of state whose pressure is carried by damaged material or cut off at
-  /// `spall_strength` (infinite: never).
-  Stage* (*carrying_eos)(int law, const double* values, const MaterialConstants& constants,
-                         double spall_strength, Layout& layout);
+  Stage* (*eos)(const EosRequest& request, Layout& layout);
   Stage* (*energy_heating)(const EnergyHeatingRequest& request, Layout& layout);
   Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
   Stage* (*signal_speed)(double q_lin, double q_quad,

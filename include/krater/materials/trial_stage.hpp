@@ -12,8 +12,8 @@
 
 namespace krater::inline KRATER_ISA {
 
-/// `damaged`: damage is a column of this body; it degrades the stress where `degrades`.
-template <class RateForm, bool damaged>
+/// Damage, where it is a column of this body, degrades the stress where `degrades`.
+template <class RateForm, Integrity integrity>
 class TrialStage final : public Stage {
  public:
   TrialStage(bool degrades, Layout& layout)
@@ -24,10 +24,8 @@ class TrialStage final : public Stage {
         shear_{layout.local_input<field::ShearModulus>(kName)},
         effective_{layout.local_output<field::EffectiveDeviator>(kName)} {
     if constexpr (RateForm::needs_F) F_ = layout.input<field::DeformationGradient>(kName);
-    if constexpr (damaged) {
-      phi_ = layout.input<field::Damage>(kName);
-      failed_ = layout.input<field::Failed>(kName);
-    }
+    if constexpr (integrity == Integrity::damaged) phi_ = layout.input<field::Damage>(kName);
+    if constexpr (integrity != Integrity::sound) failed_ = layout.input<field::Failed>(kName);
   }
 
   StageOrder order() const override { return StageOrder::trial; }
@@ -38,12 +36,12 @@ class TrialStage final : public Stage {
     const auto dE_p = view(batch, strain_);
     for (int g = 0; g < batch.groups; ++g) {
       Sym3<Pack> s = load_sym3(s_p, g);
-      if constexpr (damaged)
+      if constexpr (integrity == Integrity::damaged)
         s = (Pack(1.0) / fnma(Pack(degrades_), view(batch, phi_)(g), Pack(1.0))) * s;
       StepMotion<Pack> motion{load_mat3(dtL_p, g), load_sym3(dE_p, g), {}};
       if constexpr (RateForm::needs_F) motion.F = load_mat3(view(batch, F_), g);
       Sym3<Pack> trial = RateForm::trial(s, motion, view(batch, shear_)(g));
-      if constexpr (damaged) {
+      if constexpr (integrity != Integrity::sound) {
         const Mask failed = view(batch, failed_)(g) > Pack(0.5);
         const auto kept = [&](Pack x) { return select(failed, Pack(0.0), x); };
         trial = {kept(trial.xx), kept(trial.yy), kept(trial.zz),

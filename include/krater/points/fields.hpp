@@ -51,6 +51,8 @@ KRATER_FIELD(PlasticStrain, "plastic_strain", "1", 1, "accumulated equivalent pl
 KRATER_FIELD(
     VoidVolume, "void_volume", "m^3/kg", 1,
     "specific volume of voids opened by plastic flow; the equation of state does not see it");
+KRATER_FIELD(Distension, "distension", "1", 1,
+             "volume of the porous material over that of its solid: 1 without pores");
 KRATER_FIELD(Damage, "damage", "1", 1, "damage phi: 0 sound, fails at phi_c");
 KRATER_FIELD(Failed, "failed", "1", 1, "1 where the material has failed: no deviator, no tension");
 KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last update, undamaged");

@@ -49,9 +49,10 @@ struct MaterialOptions {
   Coupling coupling = Coupling::effective;                      ///< of damage
   DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage
   FailureAction failure = FailureAction::strength_loss;
-  std::optional<double> spall_strength;  ///< largest tension carried [Pa]; absent: no limit
-  bool bare = false;                     ///< no law: enough for rigid bodies
-  std::vector<std::string> unused;       ///< keys of its card that the scene does not ask for
+  std::optional<double> spall_strength;  ///< tension [Pa]; absent: no limit
+  SpallAction spall_action = SpallAction::fail;
+  bool bare = false;                ///< no law: enough for rigid bodies
+  std::vector<std::string> unused;  ///< keys of its card that the scene does not ask for
 };
 
 /// A vector field given by expressions in x y z r t (and X Y Z R: position at the start), or

@@ -107,6 +107,25 @@ TEST_SUITE("unit") {
     CHECK(connected_pieces(BodyPoints{}, context).list.empty());
   }
 
+  TEST_CASE("pieces: rubble between two blocks holds nothing together, and joins what it touches") {
+    const MeasureContext context = plane();
+    BodyPoints points = block(context, {2 * h, 2 * h}, {14 * h, 6 * h}, {});
+    CHECK(connected_pieces(points, context).list.size() == 1);
+    points.rubble.assign(points.count(), false);
+    const auto loosen = [&](double low, double high) {
+      for (std::size_t p = 0; p < points.count(); ++p)
+        points.rubble[p] = points.x[p][0] > low && points.x[p][0] < high;
+    };
+    loosen(6 * h, 8 * h);  // both columns of cells touch a block: a chain through them holds
+    CHECK(connected_pieces(points, context).list.size() == 2);
+    loosen(6 * h, 9 * h);  // the middle column touches none: 4 cells on their own
+    const Pieces parted = connected_pieces(points, context);
+    CHECK(parted.list.size() == 2 + 4);
+    CHECK(parted.list[0].points == 6 * 4 * 4);
+    loosen(6 * h, 7 * h);  // one column touches both blocks
+    CHECK(connected_pieces(points, context).list.size() == 1);
+  }
+
   TEST_CASE("pieces: the order of the points changes nothing") {
     const MeasureContext context = plane();
     BodyPoints points = together(block(context, {2 * h, 2 * h}, {9 * h, 3 * h}, {}),

@@ -11,9 +11,12 @@
 /// and bulk sound speed; and, if it has a pole that it continues past,
 ///   MaskOf<Real> beyond_pole(Real rho) const                           counted by the stage
 /// A material that is not at p = e = 0 at the start has a double initial_energy.
+/// A law with history (materials/law_state.hpp) gives these functions by `at(state)`, and
+///   std::array<Real, N> after(Real rho, Real v, Real e) const          the state at the end
 #pragma once
 
 #include "krater/core/simd.hpp"
+#include "krater/materials/law_state.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -55,7 +58,7 @@ KRATER_FORCE_INLINE double energy_at_start(const Law& law) {
 }
 template <class Law>
 KRATER_FORCE_INLINE double pressure_at_start(const Law& law) {
-  return pressure_at(law, law.rho0, 1.0 / law.rho0, energy_at_start(law));
+  return pressure_at(at_start(law), law.rho0, 1.0 / law.rho0, energy_at_start(law));
 }
 
 }  // namespace krater::inline KRATER_ISA

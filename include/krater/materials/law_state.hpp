@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file
+/// State columns that a law owns. A law with history declares
+///   using State = Columns<field::Distension>;       its columns: checkpoint, output and migration
+///                                                    follow by themselves
+///   std::array<double, N> initial_state() const     of a new point
+///   template <class Real> auto at(const std::array<Real, N>& state) const
+/// and `at` gives the law as it is at that state: an object with the functions that the family asks
+/// of a law without history. A stage binds every lane group so and writes back what the bound law
+/// says of the end of the step; a law without a State is its own bound law, at no cost.
+/// A column belongs to one law: declaring it twice, in one law or in two, is an error.
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "krater/points/batch.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+template <Field... F>
+struct Columns {
+  static constexpr int count = sizeof...(F);
+};
+
+template <class Law>
+concept OwnsState = requires {
+  typename Law::State;
+};
+
+/// The law at the state of a new point.
+template <class Law>
+KRATER_FORCE_INLINE decltype(auto) at_start(const Law& law) {
+  if constexpr (OwnsState<Law>) {
+    return law.at(law.initial_state());
+  } else {
+    return (law);
+  }
+}
+
+/// The columns of a law without history: none.
+template <class Law>
+class StateOf {
+ public:
+  StateOf(const Law&, Layout&) {}
+  KRATER_FORCE_INLINE const Law& at(const Law& law, const BatchData&, int) const { return law; }
+};
+
+template <class Law>
+requires OwnsState<Law>
+class StateOf<Law> {
+ public:
+  StateOf(const Law& law, Layout& layout) { declare(law, layout, typename Law::State{}); }
+
+  KRATER_FORCE_INLINE auto at(const Law& law, const BatchData& batch, int g) const {
+    std::array<Pack, count> state;
+    for (unsigned k = 0; k < count; ++k) state[k] = column(batch, k)(g);
+    return law.at(state);
+  }
+  KRATER_FORCE_INLINE void set(const BatchData& batch, int g,
+                               const std::array<Pack, Law::State::count>& state) const {
+    for (unsigned k = 0; k < count; ++k) column(batch, k).set(g, state[k]);
+  }
+
+ private:
+  static constexpr unsigned count = Law::State::count;
+
+  template <Field... F>
+  void declare(const Law& law, Layout& layout, Columns<F...>) {
+    const std::array<double, count> initial = law.initial_state();
+    unsigned k = 0;
+    const auto one = [&]<class Column>() {
+      if (layout.find(Column::info.name) != nullptr)
+        throw std::logic_error(std::string{Law::name} + ": the column '" + Column::info.name +
+                               "' belongs to another law already, or is declared twice");
+      offsets_[k] = layout.state<Column>(initial[k], Law::name).offset;
+      ++k;
+    };
+    (one.template operator()<F>(), ...);
+  }
+  KRATER_FORCE_INLINE WriteView column(const BatchData& batch, unsigned k) const {
+    return {batch.state + offsets_[k], batch.state_stride};
+  }
+
+  std::array<int, count> offsets_{};
+};
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pressure, and temperature from the energy (compiled once per instruction-set level).
+#include "krater/materials/energy_heating_stage.hpp"
+#include "krater/materials/eos_stage.hpp"
+#include "materials/stage_makers.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+namespace {
+
+template <class Law, Tension tension>
+Stage* make_tensile(const EosRequest& r, Layout& layout) {
+  const Law law = make_law<Law>(r.values, r.constants);
+  if (has_voids(layout)) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
+  return new EosStage<Law, tension, false>{law, r.spall_strength, layout};
+}
+
+template <class Law>
+Stage* make_heating_of(const Law& law, const EnergyHeatingRequest& r, Layout& layout) {
+  if (r.carries)
+    return new EnergyHeatingStage<Law, true>{law, r.c_v, r.degrades, r.constants, layout};
+  return new EnergyHeatingStage<Law, false>{law, r.c_v, r.degrades, r.constants, layout};
+}
+
+}  // namespace
+
+Stage* make_eos(const EosRequest& r, Layout& layout) {
+  return stage_of(AllLaws{}, r.law, [&]<class Law>() -> Stage* {
+    if constexpr (Law::family == Family::eos) {
+      switch (r.tension) {
+        case Tension::own:
+          return make_tensile<Law, Tension::own>(r, layout);
+        case Tension::carried:
+          return make_tensile<Law, Tension::carried>(r, layout);
+        case Tension::parting:
+          return make_tensile<Law, Tension::parting>(r, layout);
+      }
+    }
+    return nullptr;
+  });
+}
+
+Stage* make_energy_heating(const EnergyHeatingRequest& r, Layout& layout) {
+  return stage_of(AllLaws{}, r.eos, [&]<class Law>() -> Stage* {
+    if constexpr (Law::family == Family::eos) {
+      const Law law = make_law<Law>(r.eos_values, r.constants);
+      if constexpr (requires { law.solid; }) {
+        return make_heating_of(law.solid, r, layout);
+      } else {
+        return make_heating_of(law, r, layout);
+      }
+    } else {
+      return nullptr;
+    }
+  });
+}
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The deviator in one stage: sound material, default rate (compiled once per instruction-set
+// level).
+#include "krater/materials/hyperelastic_stage.hpp"
+#include "krater/materials/strength_stage.hpp"
+#include "materials/stage_makers.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+Stage* make_strength(int index, const double* values, const MaterialConstants& constants,
+                     Layout& layout) {
+  return stage_of(AllLaws{}, index, [&]<class Law>() -> Stage* {
+    if constexpr (WholeStress<Law>) {
+      const Law law = make_law<Law>(values, constants);
+      if (has_deformation_gradient(layout))
+        return new HyperelasticStage<Law, false>{law, constants, layout};
+      return new HyperelasticStage<Law, true>{law, constants, layout};
+    } else if constexpr (Law::family == Family::strength) {
+      return new StrengthStage<Law>{make_law<Law>(values, constants), constants, layout};
+    } else {
+      return nullptr;
+    }
+  });
+}
+
+}  // namespace krater::inline KRATER_ISA
