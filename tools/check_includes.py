@@ -47,6 +47,7 @@ STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cmath>: no folder, no suffix
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60
+MAX_PARAMETERS = 8  # five as a rule
 MAX_COLUMNS = 100  # clang-format leaves comments alone
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(<[^>\n]+>|"[^"\n]+")', re.M)
 PRAGMA_OMP = re.compile(r"^[ \t]*#[ \t]*pragma[ \t]+omp[ \t]+(.*)$", re.M)
@@ -94,7 +95,11 @@ class Checker:
         lines = raw.count("\n") + (not raw.endswith("\n"))
         if lines > MAX_FILE_LINES:
             self.error(path, lines, f"{lines} lines, more than {MAX_FILE_LINES}")
-        for line, length, name in functions(code):
+        for line, statement in comma_statements(code):
+            self.error(path, line, f"a comma joins statements: {statement[:60]}")
+        for line, length, name, parameters in functions(code):
+            if parameters > MAX_PARAMETERS:
+                self.error(path, line, f"function {name} has {parameters} parameters, more than {MAX_PARAMETERS}")
             if length > MAX_FUNCTION_LINES:
                 self.error(path, line, f"function {name} has {length} lines, more than {MAX_FUNCTION_LINES}")
         if path.suffix == ".hpp":
@@ -174,26 +179,26 @@ def blank_strings(text):
 
 
 def functions(code):
-    """Yields (line, length, name) of function bodies. A heuristic on braces: in namespaces and classes a brace
-    after a parameter list opens a function; all within it belongs to it."""
+    """Yields (line, length, name, parameters) of function bodies. A heuristic on braces: in namespaces and classes a
+    brace after a parameter list opens a function; all within it belongs to it."""
     code = re.sub(r"^[ \t]*#(?:[^\n\\]|\\.|\\\n)*", blank, code, flags=re.M | re.S)
     statement = ""
     stack = []  # kinds of the open braces: scope, function, other
-    start = (0, "")
+    start = (0, "", 0)
     for match in re.finditer(r"[{};]|[^{};]+", code):
         token = match.group(0)
         nested = any(kind != "scope" for kind, _ in stack)
         if token == "{":
             kind = "other" if nested else brace_kind(statement)
             if kind == "function":
-                start = (line_of(code, match.start()), function_name(statement))
+                start = (line_of(code, match.start()), function_name(statement), parameter_count(statement))
             stack.append((kind, statement))
             if not nested and kind != "other":
                 statement = ""
         elif token == "}":
             kind, before = stack.pop() if stack else ("other", "")
             if kind == "function":
-                yield start[0], line_of(code, match.start()) - start[0] + 1, start[1]
+                yield start[0], line_of(code, match.start()) - start[0] + 1, *start[1:]
             if not any(k != "scope" for k, _ in stack):
                 statement = before + "()" if kind == "other" else ""
         elif not nested:
@@ -238,6 +243,65 @@ def function_name(statement):
     return names[0].strip() if names else "?"
 
 
+def parameter_count(statement):
+    text = re.sub(r"\[\[.*?\]\]", "", strip_templates(statement))
+    head = re.search(r"([\w:]*\boperator\s*\(\)|operator\s*[^\s\w(]+|[~\w:]+)\s*\(", text)
+    depth = angle = commas = 0
+    for i, char in enumerate(text[head.end() - 1:] if head else ""):
+        depth += (char in "([{") - (char in ")]}")
+        angle += (char == "<") - (char == ">")
+        commas += char == "," and depth == 1 and angle == 0
+        if depth == 0:
+            return commas + 1 if text[head.end():head.end() - 1 + i].strip() else 0
+    return 0
+
+
+def comma_statements(code):
+    """Yields (line, text) of statements joined by a comma operator where a semicolon would do. Contents of brackets are
+    left out of the text, and so are declarations, and Eigen's `m << 1, 2`."""
+    code = re.sub(r"^[ \t]*#(?:[^\n\\]|\\.|\\\n)*", blank, code, flags=re.M | re.S)
+    stack = [["{", ""]]  # open brackets, each with the text before its next one
+    for i, char in enumerate(code):
+        top = stack[-1]
+        if char in "{([":
+            top[1] += char if char != "{" else ""
+            stack.append([char, ""])
+        elif char in "})]" and len(stack) > 1:
+            stack.pop()
+            top = stack[-1]
+            top[1] += "{}" if char == "}" else char
+            if char == "}" and top[0] == "{" and code[i + 1:].lstrip()[:1] not in ",;).]=+-*/<>?:&|":
+                top[1] = ""  # the end of a block
+        elif char == ";" and top[0] == "{":
+            text = plain_statement(top[1])
+            if joined_by_comma(text):
+                yield line_of(code, i), text
+            top[1] = ""
+        elif top[0] == "{" or char == ";":
+            top[1] += char
+
+
+def plain_statement(text):
+    """Without labels, conditions, template arguments and alignas."""
+    text, before = " ".join(text.split()), None
+    while text != before:
+        before = text
+        text = re.sub(r"^((else|do)\b|(if|for|while|switch)( constexpr)? ?\(\)|(public|private|protected) ?:|default ?:"
+                      r"|case [^:]*:|alignas ?\(\)) ?", "", text)
+        text = re.sub(r"(?<=\w) ?<[^<>;]*>", "", text)
+    return text
+
+
+def joined_by_comma(text):
+    first = text.partition(",")[0]
+    if first == text or re.match(r"(using|template|friend|typedef|enum|namespace)\b", text):
+        return False
+    if re.match(r"(return|throw|delete)\b", first):
+        return True
+    declaration = re.match(r"(\[\[[^\]]*\]\] ?)?([\w:]+[ *&]+)+(\[\]|[\w:~]+) ?(\[\]|=|\{|\(|:|$)", first)
+    return not declaration and ("<<" not in first or "=" in first)
+
+
 def self_test():
     """Plants one error of each kind and one long function among harmless code; returns what went unnoticed."""
     long_body = "  x += 1;\n" * 60
@@ -254,6 +318,14 @@ def self_test():
                            "int short_one() { return '{' + 1'000; }\n}\n", 2),
         "src/app/d.cpp": ("int i;\n" * 401, 1),
         "src/elsewhere/e.cpp": ("\n", 1),
+        "src/app/g.cpp": ("void f(int a, int b) {\n  int c = a, d[2] = {b, b};\n  const std::map<int, int> m, n;\n"
+                          "  double *p, *q;\n  for (int i = 0, j = 1; i < j; ++i, --j) g(i, j);\n  v << a, b;\n"
+                          "  alignas(64) double x[8], y[8];\n  auto h = [&](int k) { c = k, d[0] = k; };\n"
+                          "  if (a > b) c = a, d[0] = b;\n  g(a, b), g(b, a);\n  return g(a, b), c;\n}\n"
+                          "struct A {\n  A() : i{1}, j{2} {}\n  int i, j;\n};\nenum class E { one, two };\n", 4),
+        "src/app/h.cpp": ("int f(std::map<int, int> a, int b = g(1, 2), int c, int d, int e, int f, int g, int h) {}\n"
+                          "template <class A, class B>\nint A<B>::operator()(A a, int b, int c, int d, int e, int f, "
+                          "int g, int h,\n int i) const {}\n", 1),
         "src/app/f.cpp": ("//" + "x" * 98 + "\n//" + "x" * 99 + "\n", 1),
         "tests/unit/t.cpp": ('#include <doctest/doctest.h>\n#include <hdf5.h>\n#include "krater/core/z.hpp"\n', 1),
     }

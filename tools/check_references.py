@@ -6,7 +6,7 @@ Checked in comments, texts and pages of the whole tree:
   theory 9, theory D9, (9.4) in THEORY.md, Decision 6      an entry of src/THEORY.md
   CCF (7), SPEAR (S.36)                                    in the table of the two papers at its end
   kValley in THEORY.md                                     a constant of the sources
-  step/audit.hpp, tests/data/x.csv, `unit/scene/cards`     a file, or a test by the name that ctest gives it
+  step/audit.hpp, `app/material_plan`, `unit/scene/cards`  a file, or a test by the name that ctest gives it
   [text](path#anchor)                                      a file, and a heading in it
 Files of runs (summary.json) and of users (filler.stl) are no references. Prints file:line: message, returns 1 on any.
 """
@@ -31,7 +31,9 @@ ENDINGS = r"(?:hpp|cpp|py|md|yaml|csv|cmake|txt|inl)"
 FILE = re.compile(r"(?<![\w./*{}<>$-])((?:\.\./)*[\w*][\w*/.-]*\." + ENDINGS + r")\b(?![\w(/]|:\d)")
 TEST = re.compile(r"(?<![\w./-])((?:unit|contract|verification|scene|style)/[\w/.*-]*\w)")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
-QUOTED = re.compile(r"`([^`\s]+)`")
+QUOTED = re.compile(r"`([^`\n]+)`")
+PLACE = re.compile(r"(?<![\w./<-])((?:tools|inputs|validation|tests|include|src|core|points|grid|geometry|materials|step"
+                   r"|scene|output|app)/[\w/.*-]*\w)")
 
 # Written by runs, a user's (in capitals, or x), or another program's.
 NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
@@ -125,11 +127,10 @@ class Checker:
             elif anchor and anchor not in anchors(at.read_text(encoding="utf-8")):
                 self.error(path, line_of(text, match.start()), f"'{target}' has no heading '{anchor}'")
         for match in QUOTED.finditer(text):
-            name = match.group(1).rstrip("/")
-            first = name.split("/")[0]
-            if "/" in name and first in ("tools", "inputs", "validation", "tests", "include", "src") \
-                    and not self.find(path, name):
-                self.error(path, line_of(text, match.start()), f"no '{name}'")
+            for place in PLACE.finditer(match.group(1)):
+                name = place.group(1)
+                if not self.find(path, name) and not self.find(path, name + ".*") and not self.find_test(name):
+                    self.error(path, line_of(text, match.start()), f"no '{name}'")
 
     def check_equations(self, path, text):
         for match in re.finditer(r"\((\d+\.\d+)\)", text):
@@ -225,7 +226,7 @@ def self_test():
         "tests/unit/a_test.cpp": ("\n", 0),
         "tests/tests.cmake": ("add_test(NAME style/x\n", 0),
         "README.md": ("# Head\n[x](src/THEORY.md#2-b) [y](#head) [z](no.md) [w](#none) `tools/no` `style/x` `style/y`\n"
-                      "summary.json resolved.yaml\n", 5),
+                      "summary.json resolved.yaml `run tests/unit step/no -o x_out`\n", 6),
     }
     missed = []
     with tempfile.TemporaryDirectory() as folder:

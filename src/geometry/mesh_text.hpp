@@ -21,7 +21,10 @@ class MeshText {
     throw std::invalid_argument(file_ + ":" + std::to_string(line_) + ": " + message);
   }
 
-  bool at_end() { return skip(true), at_ >= text_.size(); }
+  bool at_end() {
+    skip(true);
+    return at_ >= text_.size();
+  }
 
   /// The next word on any line; "" at the end of the file. `#` begins a comment where asked for.
   std::string_view word(bool comments = false) {
@@ -37,7 +40,10 @@ class MeshText {
 
   void next_line() {
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-    if (at_ < text_.size()) ++at_, ++line_;
+    if (at_ < text_.size()) {
+      ++at_;
+      ++line_;
+    }
   }
 
   void expect(std::string_view wanted) {
@@ -88,7 +94,8 @@ class MeshText {
       } else if (comments && text_[at_] == '#') {
         while (at_ < text_.size() && text_[at_] != '\n') ++at_;
       } else if (lines && text_[at_] == '\n') {
-        ++at_, ++line_;
+        ++at_;
+        ++line_;
       } else {
         return;
       }

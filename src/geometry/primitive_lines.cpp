@@ -68,7 +68,9 @@ void CylinderSolid::spans(const Line& line, Spans& out) const {
   double dd = 0, xd = 0, xx = 0;
   for (const std::size_t a : {first_, second_}) {
     const double x = line.origin[a] - base_[a], d = line.direction[a];
-    dd += d * d, xd += x * d, xx += x * x;
+    dd += d * d;
+    xd += x * d;
+    xx += x * x;
   }
   give(common(within(dd, xd, xx, radius_), between(base_[axis_], base_[axis_] + height_,
                                                    line.origin[axis_], line.direction[axis_])),

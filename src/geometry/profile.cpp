@@ -15,7 +15,10 @@ namespace krater {
 
 ProfileEdge ProfileEdge::straight(double u0, double v0, double u1, double v1) {
   ProfileEdge e;
-  e.u0 = u0, e.v0 = v0, e.u1 = u1, e.v1 = v1;
+  e.u0 = u0;
+  e.v0 = v0;
+  e.u1 = u1;
+  e.v1 = v1;
   return e;
 }
 
@@ -23,9 +26,13 @@ ProfileEdge ProfileEdge::circular(double u_centre, double v_centre, double radiu
                                   double sweep) {
   ProfileEdge e;
   e.arc = true;
-  e.u_centre = u_centre, e.v_centre = v_centre, e.radius = radius;
-  e.start = start, e.sweep = sweep;
-  e.u0 = u_centre + radius * std::cos(start), e.v0 = v_centre + radius * std::sin(start);
+  e.u_centre = u_centre;
+  e.v_centre = v_centre;
+  e.radius = radius;
+  e.start = start;
+  e.sweep = sweep;
+  e.u0 = u_centre + radius * std::cos(start);
+  e.v0 = v_centre + radius * std::sin(start);
   e.u1 = u_centre + radius * std::cos(start + sweep);
   e.v1 = v_centre + radius * std::sin(start + sweep);
   return e;
@@ -115,7 +122,8 @@ ProfileCurve::ProfileCurve(const Profile& profile) {
   // To the last bit: a gap of round-off would be a slit all through the body.
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
     const ProfileEdge& next = pieces_[(n + 1) % pieces_.size()].edge;
-    pieces_[n].edge.u1 = next.u0, pieces_[n].edge.v1 = next.v0;
+    pieces_[n].edge.u1 = next.u0;
+    pieces_[n].edge.v1 = next.v0;
   }
 }
 
@@ -138,9 +146,14 @@ void ProfileCurve::add(const ProfileEdge& e) {
   for (std::size_t n = 0; n + 1 < cut.size(); ++n) {
     ProfileEdge piece =
         ProfileEdge::circular(e.u_centre, e.v_centre, e.radius, cut[n], cut[n + 1] - cut[n]);
-    piece.u0 = u, piece.v0 = v;
-    if (n + 2 == cut.size()) piece.u1 = e.u1, piece.v1 = e.v1;
-    u = piece.u1, v = piece.v1;
+    piece.u0 = u;
+    piece.v0 = v;
+    if (n + 2 == cut.size()) {
+      piece.u1 = e.u1;
+      piece.v1 = e.v1;
+    }
+    u = piece.u1;
+    v = piece.v1;
     const double middle = 0.5 * (cut[n] + cut[n + 1]);
     pieces_.push_back(
         {piece, std::cos(middle) < 0 ? -1.0 : 1.0, std::sin(middle) < 0 ? -1.0 : 1.0});

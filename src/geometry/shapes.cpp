@@ -139,7 +139,9 @@ std::shared_ptr<const Solid> make_ogive(double radius, double length, double crh
   Profile profile{ProfileEdge::straight(0, 0, radius, 0)};
   if (start > 0) profile.push_back(ProfileEdge::straight(radius, 0, radius, start));
   ProfileEdge tip = ProfileEdge::circular(centre, start, arc, 0, sweep);
-  tip.u0 = radius, tip.u1 = 0, tip.v1 = length;
+  tip.u0 = radius;
+  tip.u1 = 0;
+  tip.v1 = length;
   profile.push_back(tip);
   profile.push_back(ProfileEdge::straight(0, length, 0, 0));
   return make_revolution(std::move(profile));

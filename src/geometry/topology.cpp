@@ -18,7 +18,8 @@ class Groups {
     return n;
   }
   void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
+    a = root(a);
+    b = root(b);
     above_[std::max(a, b)] = std::min(a, b);
   }
 

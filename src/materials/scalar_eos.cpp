@@ -16,8 +16,10 @@ template <class Law>
 class Functions final : public ScalarEos {
  public:
   explicit Functions(const Law& law) : law_{law} {
-    rho0 = law.rho0, c0 = law.c0;
-    e0 = energy_at_start(law), p0 = pressure_at_start(law);
+    rho0 = law.rho0;
+    c0 = law.c0;
+    e0 = energy_at_start(law);
+    p0 = pressure_at_start(law);
   }
   double pressure(double rho, double e) const override {
     return pressure_at(at_start(law_), rho, 1.0 / rho, e);
@@ -66,7 +68,9 @@ ShockState state_at(const ScalarEos& eos, double eta, double e) {
   ShockState s{};
   s.particle_speed = std::sqrt(std::fmax(0.0, jump * eta / eos.rho0));
   s.shock_speed = eta > 0 ? std::sqrt(std::fmax(0.0, jump / (eos.rho0 * eta))) : eos.c0;
-  s.pressure = p, s.density = rho, s.energy = e;
+  s.pressure = p;
+  s.density = rho;
+  s.energy = e;
   s.sound_speed = std::sqrt(eos.bulk_modulus(rho, e) / rho);
   return s;
 }

@@ -104,7 +104,8 @@ void read_face(Block& block, MeasureOptions& measure, bool along_z, Reading& rea
     report_unknown(*node, "face", *word, faces, reading.problems);
     return;
   }
-  measure.axis = axis, measure.side = side;
+  measure.axis = axis;
+  measure.side = side;
   block.record("face", string_node(side_name(frame, axis, side)));
 }
 

@@ -27,8 +27,8 @@ std::shared_ptr<const Solid> make_torus(double major_radius, double minor_radius
 std::shared_ptr<const Solid> make_ellipsoid(const Vector3& semi_axes);
 
 /// A cylinder of length `length` in all that ends in a tangent ogive, tip at z = length. The arc of
-/// the nose has the radius crh x 2 `radius` (calibre-radius-head); the nose is radius sqrt(4 crh -
-/// 1) long; crh >= 1/2, where 1/2 is a hemisphere.
+/// the nose has the radius crh x 2 `radius` (calibre-radius-head); the nose is
+/// radius x sqrt(4 crh - 1) long; crh >= 1/2, where 1/2 is a hemisphere.
 std::shared_ptr<const Solid> make_ogive(double radius, double length, double crh);
 
 /// All points with low <= x_axis <= high; either may be infinite.

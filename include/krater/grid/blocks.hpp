@@ -53,7 +53,11 @@ struct Outbox {
   std::vector<double> records;
   std::vector<std::uint8_t> slots;  ///< neighbour 0..26, lexicographic in (-1, 0, 1) per axis
   std::uint32_t used = 0;           ///< bit per slot
-  void clear() { records.clear(), slots.clear(), used = 0; }
+  void clear() {
+    records.clear();
+    slots.clear();
+    used = 0;
+  }
 };
 
 /// What one sweep over a patch leaves behind; combined over patches in patch order.

@@ -52,8 +52,10 @@ class KeyIndex {
   };
   std::size_t start(const BlockKey& key, int tag) const {
     std::uint64_t hash = static_cast<std::uint32_t>(tag);
-    for (const std::int32_t i : key.i)
-      hash = (hash ^ static_cast<std::uint32_t>(i)) * 0x9E3779B97F4A7C15U, hash ^= hash >> 29;
+    for (const std::int32_t i : key.i) {
+      hash = (hash ^ static_cast<std::uint32_t>(i)) * 0x9E3779B97F4A7C15U;
+      hash ^= hash >> 29;
+    }
     return static_cast<std::size_t>(hash) & (slots_.size() - 1);
   }
   std::vector<Slot> slots_;

@@ -54,8 +54,6 @@ class SoundStage final : public Stage {
         work_{layout.local_output<field::SpecificWork>(kName)},
         plastic_work_{layout.local_output<field::PlasticWork>(kName)} {}
 
-  StageOrder order() const override { return StageOrder::carried; }
-
   void apply(const BatchData& batch) const override {
     const auto s_p = view(batch, s_);
     const auto v = view(batch, volumes_);
@@ -111,8 +109,6 @@ class CarriedStage final : public Stage {
       snap_back_ = layout.local_optional<field::SnapBack>();
     }
   }
-
-  StageOrder order() const override { return StageOrder::carried; }
 
   void apply(const BatchData& batch) const override {
     for (int g = 0; g < batch.groups; ++g) {

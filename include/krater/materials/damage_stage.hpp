@@ -28,8 +28,6 @@ class GrowthStage final : public Stage {
       T_ = {layout.state<field::Temperature>(constants.initial_temperature, Law::name).offset};
   }
 
-  StageOrder order() const override { return StageOrder::strength; }
-
   void apply(const BatchData& batch) const override {
     const auto p_p = view(batch, p_);
     const auto c_p = view(batch, c_);

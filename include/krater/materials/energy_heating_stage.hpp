@@ -35,8 +35,6 @@ class EnergyHeatingStage final : public Stage {
     isentrope_.tabulate(law, constants.initial_temperature);
   }
 
-  StageOrder order() const override { return StageOrder::heating; }
-
   void apply(const BatchData& batch) const override {
     const auto T_p = view(batch, temperature_);
     const auto e_p = view(batch, e_);

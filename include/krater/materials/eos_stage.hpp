@@ -139,8 +139,6 @@ class EosStage final : public Stage {
     }
   }
 
-  StageOrder order() const override { return StageOrder::equation_of_state; }
-
   void apply(const BatchData& batch) const override {
     const auto rho_p = view(batch, rho_);
     const auto p_p = view(batch, p_);

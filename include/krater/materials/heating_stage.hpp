@@ -18,8 +18,6 @@ class HeatingStage final : public Stage {
         mass_{layout.input<field::Mass>("heating")},
         plastic_work_{layout.local_input<field::PlasticWork>("heating")} {}
 
-  StageOrder order() const override { return StageOrder::heating; }
-
   void apply(const BatchData& batch) const override {
     const auto T_p = view(batch, temperature_);
     const auto m_p = view(batch, mass_);

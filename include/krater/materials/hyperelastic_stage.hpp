@@ -34,8 +34,6 @@ class HyperelasticStage final : public Stage {
         c_{layout.state<field::SoundSpeed>(sqrt(c0_squared_), Law::name)},
         shear_{layout.local_output<field::ShearModulus>(Law::name)} {}
 
-  StageOrder order() const override { return StageOrder::strength; }
-
   void apply(const BatchData& batch) const override {
     const auto F_p = view(batch, F_);
     const auto rho_p = view(batch, rho_);

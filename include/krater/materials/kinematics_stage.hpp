@@ -57,8 +57,6 @@ class KinematicsStage final : public Stage {
         rho_{layout.state<field::Density>(0.0, "kinematics")},
         F_{tracks_F ? layout.state<field::DeformationGradient>(0.0, "kinematics").offset : -1} {}
 
-  StageOrder order() const override { return StageOrder::kinematics; }
-
   void apply(const BatchData& batch) const override {
     const auto dtL_p = view(batch, dtL_);
     const auto a_p = view(batch, extra_);

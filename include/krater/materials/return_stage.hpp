@@ -26,8 +26,6 @@ class YieldingStage : public Stage {
       pressure_ = layout.local_input<field::EffectivePressure>(Law::name);
   }
 
-  StageOrder order() const override { return StageOrder::strength; }
-
  protected:
   KRATER_FORCE_INLINE Trial<Pack> trial(const BatchData& batch, int g) const {
     const Sym3<Pack> s = load_sym3(view(batch, effective_), g);

@@ -35,8 +35,6 @@ class SignalSpeedStage final : public Stage {
         rate_{layout.local_input<field::DilatationRate>("signal_speed")},
         signal_{layout.local_output<field::SignalSpeed>("signal_speed")} {}
 
-  StageOrder order() const override { return StageOrder::signal_speed; }
-
   void apply(const BatchData& batch) const override {
     const auto v_p = view(batch, volumes_);
     const auto c_p = view(batch, c_);

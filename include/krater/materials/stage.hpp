@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file materials/stage.hpp
-/// A material is an ordered list of stages; a scene assembles only the stages it calls for. A stage
-/// asks the layout for its fields when it is made, and is then applied to batches: one virtual call
-/// per batch, never per point.
+/// A material is an ordered list of stages (theory 4; the order is that of materials/assembly.hpp);
+/// a scene assembles only the stages it calls for. A stage asks the layout for its fields when it
+/// is made, and is then applied to batches: one virtual call per batch, never per point.
 #include "krater/points/layout.hpp"
 
 namespace krater {
 
 struct BatchData;
-
-/// Order within one constitutive update (theory 4: f, sym H, j -> rho, v -> q_v -> s, d -> EOS -> T
-/// -> c).
-enum class StageOrder : int {
-  kinematics,
-  viscosity,
-  trial,
-  strength,
-  carried,
-  equation_of_state,
-  heating,
-  signal_speed
-};
 
 class Stage {
  public:
@@ -30,7 +17,6 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
   virtual ~Stage();  // defined in stage.cpp: an inline one would be compiled at every
                      // instruction-set level
-  virtual StageOrder order() const = 0;
   virtual void apply(const BatchData& batch) const = 0;
 };
 

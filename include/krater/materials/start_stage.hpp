@@ -36,8 +36,6 @@ class StartStage final : public Stage {
     if constexpr (damaged) phi_ = layout.input<field::Damage>(Law::name);
   }
 
-  StageOrder order() const override { return StageOrder::trial; }
-
   void apply(const BatchData& batch) const override {
     for (int g = 0; g < batch.groups; ++g) {
       Pack p = Pack(0.0);

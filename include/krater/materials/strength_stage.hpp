@@ -89,8 +89,6 @@ class StrengthStage final : public Stage {
     }
   }
 
-  StageOrder order() const override { return StageOrder::strength; }
-
   void apply(const BatchData& batch) const override {
     if constexpr (Yielding<Law>) {
       // Two groups at a time (strength/pack_pair.hpp); an odd last group is paired with itself.

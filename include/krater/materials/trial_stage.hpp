@@ -28,8 +28,6 @@ class TrialStage final : public Stage {
     if constexpr (integrity != Integrity::sound) failed_ = layout.input<field::Failed>(kName);
   }
 
-  StageOrder order() const override { return StageOrder::trial; }
-
   void apply(const BatchData& batch) const override {
     const auto s_p = view(batch, s_);
     const auto dtL_p = view(batch, dtL_);

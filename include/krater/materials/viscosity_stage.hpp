@@ -22,8 +22,6 @@ class ViscosityStage final : public Stage {
         rate_{layout.local_input<field::DilatationRate>("viscosity")},
         work_{layout.local_output<field::SpecificWork>("viscosity")} {}
 
-  StageOrder order() const override { return StageOrder::viscosity; }
-
   void apply(const BatchData& batch) const override {
     const auto rho_p = view(batch, rho_);
     const auto c_p = view(batch, c_);

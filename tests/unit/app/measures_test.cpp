@@ -78,8 +78,9 @@ double diameter(double at, const BodyPoints& body, const MeasureContext& context
   return evaluate(options, body, context);
 }
 
-/// r' = R(z') g(r / rod), z' = z / compression, R(z) = rod + (foot - rod) exp(-slope z / (foot -
-/// rod)): radius `foot` and lean `slope` at the wall; stretch at the rim (foot / rod)(1 + 2 rim).
+/// r' = R(z') g(r / rod), z' = z / compression,
+/// R(z) = rod + (foot - rod) exp(-slope z / (foot - rod)):
+/// radius `foot` and lean `slope` at the wall; stretch at the rim (foot / rod)(1 + 2 rim).
 struct Mushroom {
   double rod = 10 * h, length = 25.4e-3;
   double foot = 17 * h, slope = 0.7, compression = 2.5, rim = 0.2;

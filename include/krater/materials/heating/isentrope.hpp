@@ -103,7 +103,8 @@ class Isentrope {
   static void fill(double (&row)[8], const Node& a, const Node& b) {
     const auto cubic = [](double* c, double y0, double y1, double s0, double s1) {
       const double m0 = kStep * s0, m1 = kStep * s1;
-      c[0] = y0, c[1] = m0;
+      c[0] = y0;
+      c[1] = m0;
       c[2] = 3.0 * (y1 - y0) - 2.0 * m0 - m1;
       c[3] = 2.0 * (y0 - y1) + m0 + m1;
     };
