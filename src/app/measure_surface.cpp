@@ -55,6 +55,8 @@ struct BandPoint {
 struct Band {
   std::vector<BandPoint> points;
   MeasuringAxis axis;
+  std::array<double, 2> domain{-std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity()};  ///< on its axis [m]
   int trusted =
       0;  ///< nodes about the axis of a 3d body, where 1 / r varies within one point, are not
 };
@@ -86,7 +88,9 @@ std::optional<double> edge(const Band& band, int side) {
   }
   const std::optional<LineEdge> found = outer_edge(line);
   if (!found) return std::nullopt;
-  return side == 1 ? axis.origin + found->place : axis.node(axis.count - 1) - found->place;
+  const double place =
+      side == 1 ? axis.origin + found->place : axis.node(axis.count - 1) - found->place;
+  return std::clamp(place, band.domain[0], band.domain[1]);
 }
 
 /// The side on which a symmetry plane cuts the body, if any.
@@ -113,8 +117,9 @@ double centre(const BodyPoints& body, const MeasureContext& context,
   if (side) return *side == 0 ? context.min[index(d)] : context.max[index(d)];
   double sum = 0, moment = 0;
   for (std::size_t p = 0; p < body.count(); ++p) {
-    sum += weights[p] * volume(body, p);
-    moment += weights[p] * volume(body, p) * body.x[p][index(d)];
+    const double filled = weights[p] * filled_volume(body, context, p);
+    sum += filled;
+    moment += filled * body.x[p][index(d)];
   }
   return moment / sum;
 }
@@ -137,13 +142,15 @@ Band round_band(const BodyPoints& body, const MeasureContext& context, double z0
     if (weights[p] == 0) continue;
     const Triple& x = body.x[p];
     const double r = space ? std::hypot(x[0] - middle[0], x[1] - middle[1]) : x[0];
-    band.points.push_back(
-        {r, section(volume(body, p), r, share, a) * weights[p] / b, (x[index(last)] - z0) / a});
+    band.points.push_back({r,
+                           section(filled_volume(body, context, p), r, share, a) * weights[p] / b,
+                           (x[index(last)] - z0) / a});
     furthest = std::max(furthest, r);
   }
   const double lower = space ? 0.0 : context.min[0];
   const bool inner = space || is_symmetry(context, 0, 0);
   band.trusted = space ? 2 : 0;
+  if (!space) band.domain = {context.min[0], context.max[0]};
   const bool outer = !space && is_closed(context, 0, 1);
   const double far = space ? lower + a * (std::ceil(furthest / a) + 3) : context.max[0];
   band.axis =
@@ -158,9 +165,10 @@ Band flat_band(const BodyPoints& body, const MeasureContext& context, double z0)
   for (std::size_t p = 0; p < body.count(); ++p) {
     if (weights[p] == 0) continue;
     band.points.push_back(
-        {body.x[p][0], volume(body, p) * weights[p] / b, (body.x[p][1] - z0) / a});
+        {body.x[p][0], filled_volume(body, context, p) * weights[p] / b, (body.x[p][1] - z0) / a});
   }
   band.axis = body_axis(body, context, 0);
+  band.domain = {context.min[0], context.max[0]};
   return band;
 }
 
@@ -224,6 +232,15 @@ double node_spacing(const MeasureContext& context) {
   return 2 * context.h / context.points_per_direction;
 }
 
+double filled_volume(const BodyPoints& body, const MeasureContext& context, std::size_t p) {
+  const double a = node_spacing(context);
+  double cell = a * a;
+  if (context.frame == Frame::axisymmetric)
+    cell *= 2 * std::numbers::pi * std::max(body.x[p][0], 0.2 * a);
+  if (context.frame == Frame::cartesian_3d) cell *= a;
+  return std::min(volume(body, p), cell);
+}
+
 bool is_closed(const MeasureContext& context, int axis, int side) {
   return context.boundary[index(axis)][index(side)] != BoundaryKind::open;
 }
@@ -239,7 +256,7 @@ VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& con
     axes[index(d)] = body_axis(body, context, d, to_planes);
   std::vector<double> sections(body.count());
   for (std::size_t p = 0; p < body.count(); ++p) {
-    const double V = volume(body, p);
+    const double V = filled_volume(body, context, p);
     sections[p] = context.frame == Frame::axisymmetric
                       ? section(V, body.x[p][0], 1, node_spacing(context))
                       : V;
@@ -259,15 +276,38 @@ VolumeFraction::Walls walls_of(const MeasureContext& context) {
 
 namespace {
 
-/// Lowest and highest place of the surface along an axis.
+/// Places of the points along an axis; of those that stand for more than a cell of the measuring
+/// grid each, which fill the cell they lie in, however far their neighbours are.
+struct Reach {
+  std::array<double, 2> all,
+      sparse{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+};
+
+Reach reach(const BodyPoints& body, const MeasureContext& context, int axis) {
+  Reach found{.all = range(body, axis)};
+  for (std::size_t p = 0; p < body.count(); ++p) {
+    if (filled_volume(body, context, p) == volume(body, p)) continue;
+    const double x = body.x[p][index(axis)];
+    found.sparse = {std::min(found.sparse[0], x), std::max(found.sparse[1], x)};
+  }
+  return found;
+}
+
+/// Lowest and highest place of the surface along an axis: as far as sparse points, in the domain,
+/// within a of the points. Not a number stays so.
 std::array<double, 2> ends(const BodyPoints& body, const MeasureContext& context, int axis) {
   std::optional<std::array<double, 2>> found;
   auto& kept = body.memo ? body.memo->ends[index(axis)] : found;
-  if (!kept) {
-    const VolumeFraction fraction = volume_fraction(body, context);
-    const VolumeFraction::Walls walls = walls_of(context);
-    kept = {fraction.outermost(axis, 0, walls), fraction.outermost(axis, 1, walls)};
-  }
+  if (kept) return *kept;
+  const VolumeFraction fraction = volume_fraction(body, context);
+  const VolumeFraction::Walls walls = walls_of(context);
+  const Reach points = reach(body, context, axis);
+  const double a = node_spacing(context);
+  std::array<double, 2> at{fraction.outermost(axis, 0, walls), fraction.outermost(axis, 1, walls)};
+  if (std::isfinite(points.sparse[0]))
+    at = {std::fmin(at[0], points.sparse[0]), std::fmax(at[1], points.sparse[1])};
+  kept = {std::max({at[0], points.all[0] - a, context.min[index(axis)]}),
+          std::min({at[1], points.all[1] + a, context.max[index(axis)]})};
   return *kept;
 }
 
@@ -290,8 +330,9 @@ double diameter(const BodyPoints& body, const MeasureContext& context, double at
   return diameter_at(body, context, std::clamp(z0, low, high));
 }
 
-double largest_diameter(const BodyPoints& body, const MeasureContext& context) {
-  const auto [low, high] = ends(body, context, dimension(context.frame) - 1);
+double largest_diameter(const BodyPoints& body, const MeasureContext& context, double within) {
+  const auto [low, top] = ends(body, context, dimension(context.frame) - 1);
+  const double high = within > 0 ? std::min(top, low + within) : top;
   const Slices slices{body, context};
   const double heights = std::max(1.0, std::ceil((high - low) / node_spacing(context)));
   double largest = kNothing;

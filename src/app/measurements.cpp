@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "krater/app/measure_surface.hpp"
 #include "krater/app/pieces.hpp"
 
 namespace krater {
@@ -26,6 +27,7 @@ std::vector<std::string> fields_of(const MeasureOptions& measure) {
   switch (measure.kind) {
     case MeasureKind::mean:
     case MeasureKind::maximum:
+    case MeasureKind::minimum:
       return {measure.field};
     case MeasureKind::internal_energy:
       return {"internal_energy"};
@@ -141,7 +143,10 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
   j["body"] = bodies_json(scene, m.selection.bodies);
   if (m.axis >= 0) j["axis"] = Json::of(std::string{axis_name(scene.frame, m.axis)});
   if (m.kind == MeasureKind::diameter) j["at"] = Json::of(m.at);
+  if (m.kind == MeasureKind::largest_diameter && m.level > 0) j["within"] = Json::of(m.level);
   if (!m.field.empty()) j["field"] = Json::of(m.field);
+  if (m.kind == MeasureKind::maximum || m.kind == MeasureKind::minimum)
+    j["mass_share"] = Json::of(m.mass_share);
   if (needs_face(m)) j["face"] = Json::of(start.face);
   if (m.selection.largest_piece) j["piece"] = Json::of("largest");
   if (m.keep != Keep::now) {
@@ -219,7 +224,10 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
   Selections selections{sim};
   for (std::size_t i = 0; i < now.size(); ++i) {
     const MeasureOptions& m = scene.measures[i];
-    measures[m.name] = measure_json(m, scene, start_[i], series_[i], now[i]);
+    Json& measure = measures[m.name] = measure_json(m, scene, start_[i], series_[i], now[i]);
+    if (!sim.broken() &&
+        rarefied(m, selections.points(m.selection), selections.context(m.selection)))
+      measure["rarefied"] = Json::of(true);
     if (m.kind != MeasureKind::fragments || sim.broken()) continue;
     MeasureSelection with_dust = m.selection;
     with_dust.least_points = 0;

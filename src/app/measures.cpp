@@ -114,8 +114,15 @@ double penetration_depth(const MeasureOptions& measure, const BodyPoints& body,
   return measure.side == 1 ? start.face - front : front - start.face;
 }
 
-double maximum(const std::vector<double>& values) {
-  return *std::max_element(values.begin(), values.end());
+/// Side 1: the largest value that points of a share of the mass reach; 0: the smallest. One point
+/// is no answer: its value grows without limit as the cell falls (overshoot beside the axis).
+double extreme(const MeasureOptions& measure, const BodyPoints& body, int side) {
+  const std::vector<double>& values = scalar(measure, body, measure.field);
+  const double sign = side == 1 ? -1 : 1;
+  std::vector<std::pair<double, double>> items;
+  items.reserve(body.count());
+  for (std::size_t p = 0; p < body.count(); ++p) items.emplace_back(sign * values[p], body.mass[p]);
+  return sign * weighted_quantile(items, measure.mass_share * mass(body) * (1 - 1e-12));
 }
 
 using Evaluate = double (*)(const MeasureOptions&, const BodyPoints&, const MeasureContext&,
@@ -143,7 +150,7 @@ constexpr Evaluator kEvaluators[] = {
     KRATER_MEASURE(max, false, outermost(b, c, m.axis, 1)),
     KRATER_MEASURE(min, false, outermost(b, c, m.axis, 0)),
     KRATER_MEASURE(diameter, false, diameter(b, c, m.at, m.at_from_end)),
-    KRATER_MEASURE(largest_diameter, false, largest_diameter(b, c)),
+    KRATER_MEASURE(largest_diameter, false, largest_diameter(b, c, m.level)),
     KRATER_MEASURE(mean_velocity, false, momentum(b, m.axis) / mass(b)),
     KRATER_MEASURE(momentum, true, momentum(b, m.axis)),
     KRATER_MEASURE(deceleration, false, momentum(b, m.axis) / mass(b)),
@@ -155,7 +162,8 @@ constexpr Evaluator kEvaluators[] = {
     KRATER_MEASURE(failed_mass, true, failed_mass(b)),
     KRATER_MEASURE(mass_lost, true, removed_mass(b, s) + failed_mass(b)),
     KRATER_MEASURE(mean, false, total(b, scalar(m, b, m.field)) / mass(b)),
-    KRATER_MEASURE(maximum, false, maximum(scalar(m, b, m.field))),
+    KRATER_MEASURE(maximum, false, extreme(m, b, 1)),
+    KRATER_MEASURE(minimum, false, extreme(m, b, 0)),
     KRATER_MEASURE(penetration_depth, false, penetration_depth(m, b, c, s)),
     KRATER_MEASURE(crater_depth, false, crater_depth(b, c, m.side, s.face)),
     KRATER_MEASURE(crater_diameter, false, crater_diameter(b, c, m.side, s.face, m.level)),

@@ -121,7 +121,9 @@ MeasuringAxis measuring_axis(double spacing, std::array<double, 2> domain,
   return axis;
 }
 
-std::optional<LineEdge> outer_edge(const FractionLine& line) {
+namespace {
+
+std::optional<LineEdge> unbounded_edge(const FractionLine& line) {
   const double half = line.full / 2;
   const int count = static_cast<int>(line.phi.size());
   int last = count - 1;
@@ -149,6 +151,18 @@ std::optional<LineEdge> outer_edge(const FractionLine& line) {
   const double e = line.spacing * (cut + 0.5 + content(beyond, inside));
   return LineEdge{line.closed_outer ? std::min(e, line.spacing * (count - 1)) : e,
                   inside.zero / line.full};
+}
+
+}  // namespace
+
+std::optional<LineEdge> outer_edge(const FractionLine& line) {
+  std::optional<LineEdge> found = unbounded_edge(line);
+  if (!found) return found;
+  // Content is a length only where phi is at most about 1; no point reaches beyond its last node.
+  int last = static_cast<int>(line.phi.size()) - 1;
+  while (line.phi[index(last)] <= 0) --last;
+  found->place = std::min(found->place, line.spacing * last);
+  return found;
 }
 
 VolumeFraction::VolumeFraction(int dimension, const std::array<MeasuringAxis, 3>& axes,

@@ -46,6 +46,26 @@ void read_at(const Node* node, MeasureOptions& measure, Block& parent, Reading& 
   parent.record("at", block.finish());
 }
 
+/// `within: {from_lower_end: 2 mm}`.
+void read_within(MeasureOptions& measure, Block& parent, Reading& reading) {
+  const Node* node = parent.find("within");
+  if (!node) return;
+  Block block{node, node->path, parent.place(), reading.problems};
+  measure.level = block.number({"from_lower_end", "m", Range::positive, kRequired,
+                                "greatest distance from the body's lower end"});
+  parent.record("within", block.finish());
+}
+
+/// The share of debris_extent is held by it, that of an extreme lies beyond it: 0 is one point.
+void read_mass_share(Block& block, MeasureOptions& measure) {
+  const bool extent = measure.kind == MeasureKind::debris_extent;
+  measure.mass_share =
+      block.number({"mass_share", "1", Range::fraction, extent ? 1.0 : kExtremeShare,
+                    extent ? "share of the mass that the extent holds"
+                           : "share of the mass that reaches the value; 0: a single point"});
+  if (extent && measure.mass_share == 0) block.fail("mass_share must be positive");
+}
+
 /// The grid axis of a word, -1: none. In the half section the first axis is called r or x, so that
 /// one scene serves both 2D frames.
 int axis_of(Frame frame, std::string_view word) {
@@ -230,11 +250,8 @@ void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
   if (takes(kind, "level"))
     measure.level = block.number(
         {"level", "m", Range::positive, reading.scene.grid.cell, "depth below the original face"});
-  if (takes(kind, "mass_share")) {
-    measure.mass_share = block.number(
-        {"mass_share", "1", Range::fraction, 1.0, "share of the mass that the extent holds"});
-    if (measure.mass_share == 0) block.fail("mass_share must be positive");
-  }
+  if (takes(kind, "within")) read_within(measure, block, reading);
+  if (takes(kind, "mass_share")) read_mass_share(block, measure);
 }
 
 void read_when(Block& block, MeasureOptions& measure) {

@@ -2,21 +2,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every scene of inputs/ in every frame it supports: checked, stepped for a short time, results sound."""
 
+import re
+
 from scene_support import ROOT, Folder, check, finish, krater, results_errors, run, summary
 
 # Frames a scene supports; in the others it must be refused, and say why. 3d runs take a coarser cell.
 SCENES = {
     "bar_pulled_apart": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "1 mm"},
     # Their 3d runs are for tools/validate: full cylinders of millions of points.
-    "ccf_hypervelocity": {"frames": ("axisymmetric", "plane_strain"), "end": "0.2 us", "coarse": None,
-                          "too_large": ("3d",)},
-    "ccf_plugging": {"frames": ("axisymmetric",), "end": "5 us", "coarse": None, "too_large": ("3d",)},
+    "ccf_hypervelocity": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "ccf_plugging": {"frames": ("axisymmetric",), "end": "5 us", "coarse": None, "cell": "0.8 mm", "too_large": ("3d",)},
     "hiermaier_al": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("3d",)},
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
+    "taylor_steel": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "taylor_copper": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "two_discs": {"frames": ("plane_strain",), "end": "0.1", "coarse": None},
 }
@@ -25,6 +27,8 @@ FRAMES = ("axisymmetric", "plane_strain", "3d")
 
 def step(path, scene, frame):
     values = [f"frame={frame}", f"time.end={scene['end']}"]
+    if "cell" in scene:
+        values.append(f"grid.cell={scene['cell']}")
     if frame == "3d":
         values.append(f"grid.cell={scene['coarse']}")
     output = f"{path.stem}_{frame}"
@@ -40,6 +44,19 @@ def step(path, scene, frame):
           f"error {100 * s['audit']['energy_error_fraction']:.2f} %")
 
 
+def answers(path, said):
+    """Every doubt and advice of `check` is answered in the scene's comments, and every answer is to one that is there.
+
+    `# - "words of the doubt": the answer`, below a line `# Answers to `krater check``.
+    """
+    doubts = re.findall(r"^(?:doubt|advice): .*|^note: .*does not use.*", said, re.MULTILINE)
+    quotes = re.findall(r'^# - "([^"]+)": \S', path.read_text(encoding="utf-8"), re.MULTILINE)
+    open_doubts = [doubt for doubt in doubts if not any(quote in doubt for quote in quotes)]
+    idle = [quote for quote in quotes if not any(quote in doubt for doubt in doubts)]
+    check(not open_doubts, f"{path.name}: its {len(doubts)} doubts are answered in its comments", open_doubts)
+    check(not idle, f"{path.name}: its {len(quotes)} answers are to doubts", idle)
+
+
 with Folder():
     files = sorted((ROOT / "inputs").glob("*.yaml"))
     check(len(files) >= 4, f"{len(files)} scenes in inputs/")
@@ -52,6 +69,7 @@ with Folder():
             continue
         own = krater("check", path)
         check(own.returncode == 0 and "estimate:" in own.stdout and not own.stderr, f"check {path.name}")
+        answers(path, own.stdout)
         for frame in FRAMES:
             if frame in SCENES[path.stem].get("too_large", ()):
                 continue

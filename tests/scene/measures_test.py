@@ -49,7 +49,7 @@ def last(output, body):
 
 def fragments():
     """The bar breaks: every piece of the list has the mass, points and velocity of its points in the frame."""
-    done = run("apart", "output.fields=[fragment, mass]", "measures.pieces={kind: fragments, body: bar, least_points: 6}",
+    done = run("apart", "grid.cell=0.5 mm", "output.fields=[fragment, mass]", "measures.pieces={kind: fragments, body: bar, least_points: 6}",
                "measures.all={kind: mass, body: bar}", "measures.lost={kind: mass_lost, body: bar}",
                "measures.top={kind: mean_velocity, body: bar, axis: z, region: {z_min: 4 mm}, piece: largest}", scene=BAR)
     if not check(done.returncode == 0, "bar pulled apart, with measures", done.stderr[-300:]):

@@ -25,7 +25,7 @@ def check(condition, what, detail=""):
 
 
 def run(output, *values, scene=SCENE, extra=()):
-    settings = [text for value in values for text in ("--set", value)]
+    settings = [text for value in ("grid.cell=0.5 mm", *values) for text in ("--set", value)]
     done = subprocess.run([KRATER, "run", scene, "-o", output, "-j", "1", *settings, *extra],
                           capture_output=True, text=True, timeout=600, check=False)
     check(done.returncode == 0, f"{output}: exit code {done.returncode}", done.stderr[-300:] if done.returncode else "")

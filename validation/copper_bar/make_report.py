@@ -50,7 +50,7 @@ def row(name, run):
     cells = [name, run.summary["points"]]
     for value, wanted in zip(results(run), REFERENCE):
         cells.append(f"{1e3 * value:.3f} ({100 * (value / wanted - 1):+.2f})")
-    cells.append(f"{0.5e3 * run.measure('foot_diameter'):.3f}")
+    cells.append(f"{0.5e3 * run.measure('foot_contact_diameter'):.3f}")
     return cells + [f"{run.error:.2f}", f"{run.audit('energy_residual_fraction'):.0e}", run.summary["steps"],
                     f"{run.wall:.1f} ({run.summary['machine']['threads']})"]
 
@@ -91,7 +91,7 @@ def pictures(study, runs, held):
         if held[n]:
             outline(left, held[n], colors=[colour], linewidths=1.0, linestyles=":")
             history = held[n].history()
-            right.plot(1e6 * history["time"], 0.5e3 * history["foot_diameter"], ":", color=colour,
+            right.plot(1e6 * history["time"], 0.5e3 * history["foot_contact_diameter"], ":", color=colour,
                        label=f"R/h = {n}, foot held")
     marks = {"color": "#d6006c", "lw": 2, "ls": "--"}
     left.plot([-4, 4], [1e3 * LENGTH] * 2, **marks)

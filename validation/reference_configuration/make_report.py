@@ -18,7 +18,7 @@ from validate_runs import Study, outline, widest  # noqa: E402
 ESTIMATED_SECONDS = 150  # on two quiet cores
 
 H = 0.381e-3
-NAMES = ("final_length", "foot_diameter", "w_diameter")
+NAMES = ("final_length", "foot_contact_diameter", "w_diameter")
 REFERENCES = {"current": "current", "initial": "initial", "adaptive, 0.3": "adaptive",
               "adaptive, 0.1": "{adaptive: {strain: 0.1}}", "adaptive, 1": "{adaptive: {strain: 1}}"}
 SPEEDS = (190, 300, 400)

@@ -18,9 +18,9 @@ from validate_runs import Study, noise, order, outline, widest, widest_points  #
 ESTIMATED_SECONDS = 600  # on two quiet cores
 
 H = 0.381e-3
-NAMES = ("final_length", "foot_diameter", "w_diameter")
-EXPERIMENT = {"final_length": 16.205, "foot_diameter": 13.564, "w_diameter": 10.10}  # mm, T003
-PEERS = {"final_length": (17.2, 17.5), "foot_diameter": (13.9, 14.2), "w_diameter": (9.4, 9.7)}
+NAMES = ("final_length", "foot_contact_diameter", "w_diameter")
+EXPERIMENT = {"final_length": 16.205, "foot_contact_diameter": 13.564, "w_diameter": 10.10}  # mm, T003
+PEERS = {"final_length": (17.2, 17.5), "foot_contact_diameter": (13.9, 14.2), "w_diameter": (9.4, 9.7)}
 FE_FOOT = 14.5
 HELD = "grid.boundary.z_min=symmetry"
 CELLS = {"2h": 2 * H, "h": H, "h/2": H / 2, "h/4": H / 4}
@@ -199,10 +199,10 @@ def distance(study, runs, space, held):
     for name, run in [*runs.items(), ("3d, h", space),
                       *((f"foot held, {name}", run) for name, run in held.items())]:
         if run:
-            foot = 1e3 * run.measure("foot_diameter")
+            foot = 1e3 * run.measure("foot_contact_diameter")
             rows.append([name, f"{foot:.3f}", f"{widest(run):.3f}", f"{1e3 * widest_points(run, 'rod'):.3f}",
                          f"{1e3 * run.measure('final_length'):.3f}"])
-    study.add("Where the foot stands depends on how it is measured: the diameter of its lowest plane (`foot_diameter`), "
+    study.add("Where the foot stands depends on how it is measured: the diameter of its lowest plane (`foot_contact_diameter`), "
               "the largest diameter of the surface at volume fraction 1/2, or twice the radius of the outermost point "
               "centre. `foot held` has `z_min: symmetry` instead of the unilateral wall: the foot stays flat on the anvil, "
               "as where a finite-element run fixes the axial displacement of the nodes of its lower end.")
@@ -224,7 +224,7 @@ def overlay(study, runs, space):
     left.plot([-5, 5], [EXPERIMENT["final_length"]] * 2, **marks, label="experiment")
     for axes in (left, right):
         for side in (-0.5, 0.5):
-            axes.plot([side * EXPERIMENT["foot_diameter"]] * 2, [0, 0.6], **marks)
+            axes.plot([side * EXPERIMENT["foot_contact_diameter"]] * 2, [0, 0.6], **marks)
             axes.plot([side * EXPERIMENT["w_diameter"]] * 2, [4.8, 5.4], **marks)
         axes.set_xlabel("r [mm]")
         axes.set_ylabel("z [mm]")
@@ -267,7 +267,7 @@ def measures(study, runs, space, schemes):
     for axes, name in zip(grid, NAMES):
         axes.axhspan(*PEERS[name], color="#ffd9a0", zorder=0, label="three other MPM codes")
         axes.axhline(EXPERIMENT[name], color="#d6006c", ls="--", label="experiment")
-        if name == "foot_diameter":
+        if name == "foot_contact_diameter":
             axes.axhline(FE_FOOT, color="0.4", ls="-.", label="finite elements")
         done = [(1e3 * CELLS[n], 1e3 * run.measure(name)) for n, run in runs.items() if run]
         axes.plot([1e3 * H] * sum(1 for run in schemes.values() if run),

@@ -13,6 +13,11 @@ double node_spacing(const MeasureContext& context);
 bool is_closed(const MeasureContext& context, int axis, int side);
 bool is_symmetry(const MeasureContext& context, int axis, int side);
 
+/// What a point fills of its volume: no more than a cell of the measuring grid [m^3]. Beyond that
+/// its neighbours are cells away, and where its volume lies is not known: the point of a gas that
+/// has expanded a thousand times fills its surroundings, not the domain.
+double filled_volume(const BodyPoints& body, const MeasureContext& context, std::size_t p);
+
 /// On the nodes about the body; `to_planes`: also on those between it and the symmetry planes.
 VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context,
                                bool to_planes = false);
@@ -25,6 +30,14 @@ double extent(const BodyPoints& body, const MeasureContext& context, int axis);
 
 /// At a height on the last axis, which may count from the body's lower end [m]; NaN: no material.
 double diameter(const BodyPoints& body, const MeasureContext& context, double at, bool from_end);
-double largest_diameter(const BodyPoints& body, const MeasureContext& context);
+/// Over the heights up to `within` from the lower end; 0: all.
+double largest_diameter(const BodyPoints& body, const MeasureContext& context, double within);
+
+/// Layers of two cells (2 a) at the surface that fill less of their points' volume are rarefied.
+inline constexpr double kRarefied = 0.5;
+/// Whether the layer of points at the place that a measure of a surface found is so thin that the
+/// place says little: over half of its volume belongs to points that stand for more than a cell of
+/// the measuring grid each. Craters and holes seen along z: over the whole body.
+bool rarefied(const MeasureOptions& measure, const BodyPoints& body, const MeasureContext& context);
 
 }  // namespace krater

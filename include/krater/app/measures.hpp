@@ -11,9 +11,10 @@
 ///   A_p = V_p / (2 pi r_p c); c, the share of the revolution in the model, is 1, 1/2 or 1/4 by the
 ///   symmetry planes the body touches; elsewhere the axis is the centre of the section. Plane
 ///   strain: the width along x, doubled at a symmetry plane. largest_diameter: the largest of those
-///   at heights a apart from end to end.
+///   at heights a apart from end to end, or from the lower end to a height above it.
 /// - mean_velocity, momentum, kinetic_energy (without the affine part of the velocity field),
-///   internal_energy, mass, failed_mass, mean, maximum: sums over the points.
+///   internal_energy, mass, failed_mass, mean: sums over the points.
+/// - maximum, minimum: the quantile of a field that a share of the mass lies beyond.
 /// - removed_mass: mass at the start less mass now; mass_lost: removed and failed.
 /// - deceleration, settling_time: of the mean velocity's history (measure_series.hpp).
 /// - penetration_depth: from the target's face at the start (its outermost place on that side) to
@@ -45,6 +46,11 @@
 /// - Rods at rest: diameter within 0.01 cells inside, 0.07 at a free end; in 3d 0.06.
 /// - Plates under five cells: 0.31 cells if nearer than a third of a cell to a wall, on which they
 ///   then count as lying.
+///
+/// Rarefied material. A point fills at most a cell of the measuring grid (filled_volume), a surface
+/// lies within a of a point and in the domain, and is marked where that says little (rarefied).
+/// Without the bound the content of points that have expanded a thousand times is taken for a
+/// length: 679 mm in a box that ends at 300 (gas let out of a tube, 150 us).
 ///
 /// Not a number: no point, or no material at z0 (more than a/2 beyond the body's end, as z0 = 0 is
 /// once a body has rebounded from the wall: give the height from the lower end then).

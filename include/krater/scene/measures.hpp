@@ -30,6 +30,7 @@ enum class MeasureKind {
   mass_lost,
   mean,
   maximum,
+  minimum,
   penetration_depth,
   crater_depth,
   crater_diameter,
@@ -67,6 +68,9 @@ struct MeasureSelection {
                                                    std::numeric_limits<double>::infinity()};
 };
 
+/// Share of the mass that carries an extreme of a field unless told otherwise.
+inline constexpr double kExtremeShare = 0.001;
+
 enum class Keep { now, largest, smallest };
 
 struct MeasureOptions {
@@ -76,11 +80,12 @@ struct MeasureOptions {
   int axis = -1;             ///< grid axis; of kinds with a face: its normal
   double at = 0;             ///< diameter: position on the last axis [m] ...
   bool at_from_end = false;  ///< ... counted from the body's lower end at the time of measuring
-  std::string field;         ///< mean, maximum: field name
+  std::string field;         ///< mean, maximum, minimum: field name
   int target = -1;           ///< penetration_depth: body with the face
   int side = -1;             ///< of the face: 0 lower, 1 upper
-  double level = 0;          ///< crater_diameter: below the original face [m]
-  double mass_share = 1;     ///< debris_extent
+  double level = 0;          ///< crater_diameter: below the original face [m]; largest_diameter:
+                             ///< heights up to this from the body's lower end, 0: all
+  double mass_share = 1;     ///< debris_extent: that it holds; maximum, minimum: beyond the value
   Keep keep = Keep::now;     ///< value: at the time of measuring, or the extreme so far
   bool in_history = true;
   std::optional<double> reference;  ///< SI

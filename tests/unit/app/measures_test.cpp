@@ -319,6 +319,7 @@ TEST_SUITE("unit") {
     options.field = "temperature";
     CHECK(evaluate(options, body, context) == 375.0);
     options.kind = MeasureKind::maximum;
+    options.mass_share = 0;
     CHECK(evaluate(options, body, context) == 400.0);
     options.field = "plastic_strain";
     CHECK_THROWS_WITH_AS(evaluate(options, body, context),

@@ -78,6 +78,21 @@ const std::vector<BadMeasure> kBad{
      "mass_share",
      "measures.length",
      {"mass_share must be positive"}},
+    {"kind: extent, body: rod, axis: z}",
+     "kind: maximum, body: rod, field: pressure, mass_share: 1.5}",
+     "mass_share",
+     "measures.length.mass_share",
+     {"mass_share"}},
+    {"kind: extent, body: rod, axis: z}",
+     "kind: largest_diameter, body: rod, within: {from_lower_end: 0}}",
+     "within",
+     "measures.length.within.from_lower_end",
+     {"positive"}},
+    {"kind: extent, body: rod, axis: z}",
+     "kind: largest_diameter, body: rod, within: {}}",
+     "within",
+     "measures.length.within",
+     {"from_lower_end"}},
 };
 
 /// The small scene with one measure more.
@@ -162,6 +177,11 @@ TEST_SUITE("unit") {
     m = read("kind: crater_diameter, body: plate, face: z_max, keep: largest, piece: all", "3d");
     CHECK(m.in_history);
     CHECK(!m.selection.largest_piece);
+    m = read("kind: largest_diameter, body: rod, within: {from_lower_end: 3 mm}", "3d");
+    CHECK(m.level == 3e-3);
+    CHECK(read("kind: largest_diameter, body: rod", "3d").level == 0);
+    CHECK(read("kind: maximum, body: rod, field: pressure", "3d").mass_share == kExtremeShare);
+    CHECK(read("kind: minimum, body: rod, field: pressure, mass_share: 0", "3d").mass_share == 0);
     CHECK(read("kind: fragments, body: rod", "3d").selection.least_points == 64);
     CHECK(read("kind: fragments, body: rod", "axisymmetric").selection.least_points == 16);
     CHECK(read("kind: fragments, body: rod, least_points: 3", "3d").selection.least_points == 3);

@@ -158,10 +158,11 @@ TEST_SUITE("unit") {
     CHECK(value_of(scene, copper.heating, "cp") == 383);
     REQUIRE(scene.bodies.size() == 1);
     CHECK((*scene.bodies[0].velocity)({}, {}, 0) == Triple{0, -190, 0});
-    REQUIRE(scene.measures.size() == 3);
+    REQUIRE(scene.measures.size() == 4);
     CHECK(scene.measures[0].reference == 16.205e-3);
-    CHECK(scene.measures[2].at == 5.08e-3);
-    CHECK(scene.measures[2].at_from_end);
+    CHECK(scene.measures[1].level == 2.54e-3);
+    CHECK(scene.measures[3].at == 5.08e-3);
+    CHECK(scene.measures[3].at_from_end);
     CHECK(scene.notes.empty());
   }
 

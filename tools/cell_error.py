@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numerical error of a number that was computed with three cells: the grid convergence index of Roache (ASME V&V 20).
+
+With values f3, f2, f1 of cells r^2 h, r h, h and order p = ln((f3 - f2)/(f2 - f1)) / ln r, Richardson's limit is
+f1 + (f1 - f2)/(r^p - 1), and the true value lies within U = F |f1 - f2|/(r^p - 1) of f1 in nine of ten cases or more (tests/scene/cell_error_test.py). F is 1.25
+where p says that the values converge as the scheme does (then U is at least |f1 - f2|: p is that of three values); else they are not in that range: F is 3 with order 1, and the
+band is at least 1.25 times the spread of all three, because the two finest may agree by accident.
+"""
+
+import math
+
+FORMAL_ORDER = 2.0  # quadratic B-splines; shocks, contact and surfaces lower it, which F = 3 is for
+
+
+def error(values, ratio=2.0):
+    """(U, order or None, word) of values from the coarsest cell to the finest; word: how the values behave."""
+    coarse, middle, fine = values
+    first, second = middle - coarse, fine - middle
+    spread = max(values) - min(values)
+    if spread == 0:
+        return 0.0, None, "the same"
+    if second == 0 or first / second <= 0:
+        return max(3 * abs(second) / (ratio - 1), 1.25 * spread), None, "wavers" if second else "settles"
+    order = math.log(first / second) / math.log(ratio)
+    if 0.5 < order < FORMAL_ORDER + 0.5:
+        return max(1.25 * abs(second) / (ratio**order - 1), abs(second)), order, "converges"
+    return max(3 * abs(second) / (ratio - 1), 1.25 * spread), order, "settles" if order > 0 else "changes more and more"
