@@ -96,7 +96,8 @@ void Body::declare_rigid_columns(const Scene& scene) {
 
 void Body::add_stages(const StageFactory& factory) {
   const MaterialPlan plan = material_plan(*material_);
-  q_lin_ = plan.q_lin, q_quad_ = plan.q_quad;
+  q_lin_ = plan.q_lin;
+  q_quad_ = plan.q_quad;
   degrades_ =
       plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
   stages_ = make_stages(factory, plan, layout_);
@@ -120,19 +121,25 @@ BodyKernelData Body::kernel_data() const {
   c.grid_position = state(field::ConfigurationPosition::info);
   c.map = state(field::ConfigurationMap::info);
   if (c.grid_position < 0) c.grid_position = state(field::Position::info);
-  c.position = state(field::Position::info), c.velocity = state(field::Velocity::info);
-  c.mass = state(field::Mass::info), c.density = state(field::Density::info);
-  c.affine = state(field::AffineVelocity::info), c.stress = state(field::DeviatoricStress::info);
-  c.pressure = state(field::Pressure::info), c.viscous = state(field::ViscousPressure::info);
-  c.energy = state(field::InternalEnergy::info), c.sound_speed = state(field::SoundSpeed::info);
-  c.indicator = state(field::ShockIndicator::info), c.half_width = state(field::HalfWidth::info);
+  c.position = state(field::Position::info);
+  c.velocity = state(field::Velocity::info);
+  c.mass = state(field::Mass::info);
+  c.density = state(field::Density::info);
+  c.affine = state(field::AffineVelocity::info);
+  c.stress = state(field::DeviatoricStress::info);
+  c.pressure = state(field::Pressure::info);
+  c.viscous = state(field::ViscousPressure::info);
+  c.energy = state(field::InternalEnergy::info);
+  c.sound_speed = state(field::SoundSpeed::info);
+  c.indicator = state(field::ShockIndicator::info);
+  c.half_width = state(field::HalfWidth::info);
   c.failed = state(field::Failed::info);
   if (material_->failure == FailureAction::remove) c.removed = c.failed;
-  c.body_acceleration = state(field::BodyAcceleration::info),
+  c.body_acceleration = state(field::BodyAcceleration::info);
   c.grid_velocity = state(field::GridVelocity::info);
-  c.local_gradient = local(field::StepGradient::info),
+  c.local_gradient = local(field::StepGradient::info);
   c.local_dilatation = local(field::ExtraDilatation::info);
-  c.local_signal = local(field::SignalSpeed::info),
+  c.local_signal = local(field::SignalSpeed::info);
   c.local_rate = local(field::DilatationRate::info);
   data.stages = stage_pointers_.data();
   data.stage_count = static_cast<int>(stage_pointers_.size());
@@ -221,7 +228,8 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
     for (int a = 0; a < dim; ++a) {
       const auto i = static_cast<std::size_t>(a);
       Triple low = seed.x, high = seed.x;
-      low[i] -= seed.half_width[i], high[i] += seed.half_width[i];
+      low[i] -= seed.half_width[i];
+      high[i] += seed.half_width[i];
       const Triple before = (*options_->velocity)(low, low, 0);
       const Triple after = (*options_->velocity)(high, high, 0);
       for (int k = 0; k < dim; ++k) {

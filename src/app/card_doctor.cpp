@@ -142,7 +142,12 @@ void check_fracture_strain(const MaterialOptions& m, std::vector<std::string>& d
         const bool negative = D("D1") + D("D2") * std::exp(D("D3") * chi) <= 0 ||
                               1 + D("D4") * logarithm <= 0 || 1 + D("D5") * T <= 0;
         const double value = negative ? -std::fabs(strain) : strain;
-        if (value < least) least = value, at_chi = chi, at_T = T, at_rate = rate;
+        if (value < least) {
+          least = value;
+          at_chi = chi;
+          at_T = T;
+          at_rate = rate;
+        }
       }
   if (least <= 0)
     doubts.push_back(fmt::format(

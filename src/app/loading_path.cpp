@@ -38,7 +38,10 @@ LoadingPath::LoadingPath(const PathOptions& path, int steps, double start_pressu
         -start_pressure, *path.lateral_stress);
   const int rest = std::max(steps - steps_, static_cast<int>(path.turns.size()));
   double total = 0, before = 0;
-  for (const double turn : path.turns) total += std::fabs(turn - before), before = turn;
+  for (const double turn : path.turns) {
+    total += std::fabs(turn - before);
+    before = turn;
+  }
   before = 0;
   sign_ = path.turns.front() < 0 ? -1 : 1;
   for (const double turn : path.turns) {

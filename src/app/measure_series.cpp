@@ -51,7 +51,10 @@ double follow(const MeasureOptions& measure, MeasureSeries& series, double time,
   const double value = value_of(measure.kind, series, sample);
   if (measure.keep == Keep::now) return value;
   const bool further = measure.keep == Keep::largest ? value > series.kept : value < series.kept;
-  if (std::isnan(series.kept) || further) series.kept = value, series.kept_time = time;
+  if (std::isnan(series.kept) || further) {
+    series.kept = value;
+    series.kept_time = time;
+  }
   return series.kept;
 }
 

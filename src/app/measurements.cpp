@@ -115,7 +115,9 @@ Json fragments_json(const MeasureOptions& measure, const BodyPoints& points,
       list.items.push_back(piece_json(piece, scene));
       continue;
     }
-    pieces += 1, count += piece.points, mass += piece.mass;
+    pieces += 1;
+    count += piece.points;
+    mass += piece.mass;
   }
   j["least_points"] = Json::of(measure.selection.least_points);
   j["pieces"] = std::move(list);
@@ -170,7 +172,10 @@ Measurements::Measurements(const Simulation& sim) {
       for (const double mass : selections.points(m.selection).mass) start.mass += mass;
     if (needs_face(m)) {
       MeasureSelection owner = m.selection;
-      if (m.target >= 0) owner = {}, owner.bodies = {m.target};
+      if (m.target >= 0) {
+        owner = {};
+        owner.bodies = {m.target};
+      }
       start.face = face_position(m, selections.points(owner), selections.context(owner));
     }
     start_.push_back(start);
@@ -267,7 +272,8 @@ void Measurements::restore(const Checkpoint& checkpoint, const Scene& scene,
     const std::vector<double>& x = blob->doubles;
     const auto half = static_cast<std::ptrdiff_t>((x.size() - 2) / 2);
     MeasureSeries& s = series_[static_cast<std::size_t>(at - scene.measures.begin())];
-    s.kept = x[0], s.kept_time = x[1];
+    s.kept = x[0];
+    s.kept_time = x[1];
     s.time.assign(x.begin() + 2, x.begin() + 2 + half);
     s.sample.assign(x.begin() + 2 + half, x.end());
   }

@@ -33,7 +33,8 @@ Matrix3d with_stretch(const PathStep& step, double x) {
 class Bracket {
  public:
   void add(double x, double r) {
-    before_ = last_, last_ = {x, r};
+    before_ = last_;
+    last_ = {x, r};
     if (std::isnan(r)) return;
     End& end = r < 0 ? negative_ : positive_;
     // Illinois: an end that stays twice loses half its weight.

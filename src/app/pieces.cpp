@@ -30,7 +30,8 @@ class Forest {
   }
   /// The lower index becomes the root: no order of joining changes the roots.
   void join(int a, int b) {
-    a = root(a), b = root(b);
+    a = root(a);
+    b = root(b);
     parent_[at(std::max(a, b))] = std::min(a, b);
   }
 

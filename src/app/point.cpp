@@ -158,7 +158,8 @@ void PointRunner::run_path() {
   }
   table_ = record.columns();
   count_events(point.ledger());
-  updates_ = driver.updates(), seconds_ = driver.seconds();
+  updates_ = driver.updates();
+  seconds_ = driver.seconds();
   if (!problem.empty()) {
     write("failed", problem);
     throw NumericalError(problem);
@@ -215,8 +216,10 @@ void PointRunner::print() const {
     for (const TableColumn& c : table_) {
       if (c.name != shown) continue;
       double least = c.values.front(), greatest = least;
-      for (const double x : c.values)
-        least = std::fmin(least, x), greatest = std::fmax(greatest, x);
+      for (const double x : c.values) {
+        least = std::fmin(least, x);
+        greatest = std::fmax(greatest, x);
+      }
       if (least == 0 && greatest == 0) continue;
       fmt::print("{:<18} {:>14.6g}  {:<8} {:>14.6g} {:>14.6g}\n", c.name, c.values.back() + 0.0,
                  c.unit, least + 0.0, greatest + 0.0);

@@ -49,7 +49,9 @@ void PointRecord::follow(const Matrix3d& map, double dt, int trials, bool write)
   trials_ = trials;
   F_ += map * F_;
   strain_ += strain;
-  deviator_ = deviator, volume_ = volume, pressure_ = pressure;
+  deviator_ = deviator;
+  volume_ = volume;
+  pressure_ = pressure;
   if (write) write_row();
 }
 

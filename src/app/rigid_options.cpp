@@ -13,7 +13,9 @@ constexpr double kCut =
 RigidOptions rigid_options(const Scene& scene, const Body& body, int index) {
   const BodyOptions& options = body.options();
   RigidOptions out;
-  out.name = body.name(), out.where = options.where, out.body = index;
+  out.name = body.name();
+  out.where = options.where;
+  out.body = index;
   out.free = options.motion == Motion::free;
   if (options.velocity)
     out.velocity = [field = options.velocity](const Triple& x, const Triple& X, double t) {

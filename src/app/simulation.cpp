@@ -151,7 +151,10 @@ void Simulation::choose_first_step() {
         const double* record = p.records.data() + static_cast<std::size_t>(i / kLanes) *
                                                       static_cast<std::size_t>(c.stride);
         const double speed = std::abs(record[c.velocity + kLanes * a + i % kLanes]);
-        if (speed > fastest) fastest = speed, first_limit_ = {static_cast<int>(n), i};
+        if (speed > fastest) {
+          fastest = speed;
+          first_limit_ = {static_cast<int>(n), i};
+        }
       }
   }
   step_->set_reference_speed(fastest);

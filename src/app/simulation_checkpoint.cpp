@@ -129,7 +129,10 @@ void Simulation::restore(const Checkpoint& checkpoint) {
         "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
         "the scene and the --set options it was written with");
   const auto& clock = demand(checkpoint, "clock").doubles;
-  time_ = clock.at(0), dt_ = clock.at(1), dt_free_ = clock.at(2), max_rate_ = clock.at(4);
+  time_ = clock.at(0);
+  dt_ = clock.at(1);
+  dt_free_ = clock.at(2);
+  max_rate_ = clock.at(4);
   steps_ = demand(checkpoint, "counters").integers.at(0);
   limiter_kind_ = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
   const auto& audit = demand(checkpoint, "audit").doubles;

@@ -43,7 +43,9 @@ bool asked_for(const Scene& scene, const char* name) {
 FieldArray column_array(const Simulation& sim, const Column& c, const Points& points) {
   const Frame frame = sim.scene().frame;
   FieldArray out;
-  out.name = c.field->name, out.unit = c.field->unit, out.meaning = c.field->meaning;
+  out.name = c.field->name;
+  out.unit = c.field->unit;
+  out.meaning = c.field->meaning;
   const bool is_vector = c.field->components == kPerAxis;
   out.components = is_vector ? 3 : c.components;
   if (is_vector) out.component_names = vector_names(frame);
@@ -118,7 +120,9 @@ double deviatoric_energy(const Simulation& sim) {
 
 OutputFrame make_frame(const Simulation& sim, int number) {
   OutputFrame out;
-  out.number = number, out.time = sim.time(), out.step = sim.steps();
+  out.number = number;
+  out.time = sim.time();
+  out.step = sim.steps();
   const Frame frame = sim.scene().frame;
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
     const Body& body = *sim.bodies()[b];

@@ -129,7 +129,10 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
     all.body = body.options().body;
     for (Group& group : groups_)
       for (const RigidShare& share : group.shares)
-        if (share.body == all.body) all.push += share.push, all.stiffness += share.stiffness;
+        if (share.body == all.body) {
+          all.push += share.push;
+          all.stiffness += share.stiffness;
+        }
     const Eigen::Matrix<double, 6, 6> mobility = body.mobility();
     const Eigen::Matrix<double, 6, 6> system =
         Eigen::Matrix<double, 6, 6>::Identity() + mobility * all.stiffness;

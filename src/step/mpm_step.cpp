@@ -44,8 +44,10 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
       position_as_velocity_{bodies} {
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
-  for (BodyKernelData& body : position_as_velocity_)
-    body.columns.velocity = body.columns.position, body.columns.affine = body.columns.map;
+  for (BodyKernelData& body : position_as_velocity_) {
+    body.columns.velocity = body.columns.position;
+    body.columns.affine = body.columns.map;
+  }
   zeros_.reserve(9 * kLanes);
   node_settings_.cell_volume = std::pow(grid.geometry().h, grid.geometry().dimension);
 }
@@ -275,7 +277,10 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   });
   lap(Phase::gather);
   double scattering = 0;
-  for (ThreadMemory& m : memory_) scattering += m.scatter_seconds, m.scatter_seconds = 0;
+  for (ThreadMemory& m : memory_) {
+    scattering += m.scatter_seconds;
+    m.scatter_seconds = 0;
+  }
   watch_.move(static_cast<std::size_t>(Phase::gather), static_cast<std::size_t>(Phase::scatter),
               scattering / static_cast<double>(memory_.size()));
   throw_faults();
@@ -293,7 +298,10 @@ void MpmStep::combine_patches(bool forces_worked) {
     audit_.internal += r.internal;
     if (forces_worked) audit_.step_external += r.external_work;
     audit_.book_events(r.ledger);
-    if (r.max_rate > max_rate_) max_rate_ = r.max_rate, limiting_patch_ = static_cast<int>(p);
+    if (r.max_rate > max_rate_) {
+      max_rate_ = r.max_rate;
+      limiting_patch_ = static_cast<int>(p);
+    }
   }
 }
 

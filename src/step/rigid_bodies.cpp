@@ -88,8 +88,10 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
       outside = outside || low || high;
       if ((low || high) && !boundary.is_open(a, low ? 0 : 1))
         sides_[p] = static_cast<signed char>(1 + 2 * a + (low ? 0 : 1));
-      if (std::abs(v[a]) * geometry.inv_h > result.max_rate)
-        result.max_rate = std::abs(v[a]) * geometry.inv_h, result.limiting_point = i;
+      if (std::abs(v[a]) * geometry.inv_h > result.max_rate) {
+        result.max_rate = std::abs(v[a]) * geometry.inv_h;
+        result.limiting_point = i;
+      }
     }
     result.kinetic += 0.5 * component(patch, c.stride, c.mass, i) * v.squaredNorm();
     if (outside || block_of(geometry, x.data()) != patch.key)

@@ -152,7 +152,8 @@ void RigidBody::settle() {
   angular_momentum_ = inertia() * twist_.spin;
   for (int a = 0; a < 3; ++a)  // planes hold the rest
     if (!options_.turns[static_cast<unsigned>(a)]) angular_momentum_[a] = 0;
-  start_ = twist_, start_angular_momentum_ = angular_momentum_;
+  start_ = twist_;
+  start_angular_momentum_ = angular_momentum_;
 }
 
 void RigidBody::lose(const BlockGrid& grid, const PointColumns& columns) {
@@ -165,10 +166,14 @@ void RigidBody::lose(const BlockGrid& grid, const PointColumns& columns) {
 }
 
 void RigidBody::set_load(const Vector3d& force, const Vector3d& moment) {
-  force_ = force, moment_ = moment;
+  force_ = force;
+  moment_ = moment;
 }
 
-void RigidBody::rewind() { twist_ = start_, angular_momentum_ = start_angular_momentum_; }
+void RigidBody::rewind() {
+  twist_ = start_;
+  angular_momentum_ = start_angular_momentum_;
+}
 
 void RigidBody::begin(double time, double dt) {
   rewind();
@@ -218,7 +223,11 @@ void RigidBody::finish(double dt) {
           (turn_ * Eigen::AngleAxisd(share * dt * own / principal_[a], axes_.col(a))).normalized();
       rotation_ = turn_.toRotationMatrix();
     };
-    about(0, 0.5), about(1, 0.5), about(2, 1.0), about(1, 0.5), about(0, 0.5);
+    about(0, 0.5);
+    about(1, 0.5);
+    about(2, 1.0);
+    about(1, 0.5);
+    about(0, 0.5);
     twist_.spin = spin_of(angular_momentum_);
   } else if (spins) {
     const double rate = twist_.spin.norm();
@@ -226,7 +235,8 @@ void RigidBody::finish(double dt) {
     rotation_ = turn_.toRotationMatrix();
     if (!options_.free) angular_momentum_ = inertia() * twist_.spin;
   }
-  start_ = twist_, start_angular_momentum_ = angular_momentum_;
+  start_ = twist_;
+  start_angular_momentum_ = angular_momentum_;
 }
 
 std::vector<double> RigidBody::state() const {
@@ -240,7 +250,9 @@ std::vector<double> RigidBody::state() const {
 }
 
 void RigidBody::set_state(const double* s) {
-  mass_ = s[0], size_ = s[1], moves_ = s[6] > 0;
+  mass_ = s[0];
+  size_ = s[1];
+  moves_ = s[6] > 0;
   turn_ = Eigen::Quaterniond{s[2], s[3], s[4], s[5]};
   rotation_ = turn_.toRotationMatrix();
   s += 8;
@@ -250,7 +262,8 @@ void RigidBody::set_state(const double* s) {
     s += 3;
   }
   axes_ = Eigen::Map<const Matrix3d>(s);
-  start_ = twist_, start_angular_momentum_ = angular_momentum_;
+  start_ = twist_;
+  start_angular_momentum_ = angular_momentum_;
 }
 
 }  // namespace krater

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/cells.hpp
-/// Cell averages against volumetric locking (numerics A5). Over the points of a cell (their common
+/// Cell averages against volumetric locking (theory 18). Over the points of a cell (their common
 /// base node):
 ///   tr_c = sum V tr L / sum V,  P_c = sum V (p + q) / sum V,
 /// the stress update sees tr L + beta (tr_c - tr L), the force sees (1 - beta)(p + q) + beta P_c.
@@ -19,12 +19,15 @@ struct CellSums {
   double* volume;
   double* value;
   KRATER_FORCE_INLINE void clear() const {
-    for (int c = 0; c < kBlockNodes; c += kLanes)
-      store(volume + c, Pack(0.0)), store(value + c, Pack(0.0));
+    for (int c = 0; c < kBlockNodes; c += kLanes) {
+      store(volume + c, Pack(0.0));
+      store(value + c, Pack(0.0));
+    }
   }
   KRATER_FORCE_INLINE void add(const double* cells, Pack V, Pack quantity) const {
     alignas(64) double v[8], vq[8];
-    store(v, V), store(vq, V * quantity);
+    store(v, V);
+    store(vq, V * quantity);
     for (int l = 0; l < kLanes; ++l) {
       const int c = static_cast<int>(cells[l]);
       volume[c] += v[l];

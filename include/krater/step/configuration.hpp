@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/configuration.hpp
-/// The configuration t_a that the weights live on (theory 3, CCF Theorem 1). With F = dx/dx_a, J =
-/// det F and the Truesdell rate, the weak form keeps its content on any reference:
+/// The configuration t_a that the weights live on (theory 3, CCF Theorem 1). With F = dx/dx_a,
+/// J = det F and the Truesdell rate, the weak form keeps its content on any reference:
 ///   f_I = - sum V_a P . grad_a N_I(x_a),  V_a P = V_a J sigma F^-T = V sigma F^-T,
 ///   L = (sum v_I (x) grad_a N_I) F_n^-1,  F_n+1 = F_n + dt sum v_I (x) grad_a N_I.
 /// V = m/rho is the current volume, cell averages included, so that force and strain stay adjoint.
@@ -35,8 +35,10 @@ KRATER_FORCE_INLINE InverseMap<Dim> inverse_map(ReadView F, int g) {
   InverseMap<Dim> out;
   if constexpr (Dim == 2) {
     const Pack inverse = 1.0 / (f(0, 0) * f(1, 1) - f(0, 1) * f(1, 0));
-    out.m[0][0] = f(1, 1) * inverse, out.m[0][1] = -(f(0, 1) * inverse);
-    out.m[1][0] = -(f(1, 0) * inverse), out.m[1][1] = f(0, 0) * inverse;
+    out.m[0][0] = f(1, 1) * inverse;
+    out.m[0][1] = -(f(0, 1) * inverse);
+    out.m[1][0] = -(f(1, 0) * inverse);
+    out.m[1][1] = f(0, 0) * inverse;
   } else {
     const auto minor = [&](int i, int a) {
       const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, a1 = (a + 1) % 3, a2 = (a + 2) % 3;

@@ -10,14 +10,14 @@
 ///
 /// Filling. phi_k = sum S V_p / (volume that S covers), 1 where body k fills the node; at closed
 /// sides the covered volume ends at the plane and phi is mirrored.
-/// Joint: of the node and those around it the one with the largest min(phi_A,
-/// phi_B); normal and gap are judged there, for in the tail of a body its gradient means nothing.
+/// Joint: of the node and those around it the one with the largest min(phi_A, phi_B); normal and
+/// gap are judged there, for in the tail of a body its gradient means nothing.
 /// Normal: n ~ |grad phi_B|^20 grad phi_B - |grad phi_A|^20 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
 /// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
 /// (step/contact_regression.hpp). Touching: a gap is a valley of the total filling along the grid
 /// axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) + phi(j+1))/2. The volume
-/// criterion of numerics A10, sum phi > 1 - tol, is this one where bodies are wide; at the edge of
+/// criterion, sum phi > 1 - tol, is this one where bodies are wide; at the edge of
 /// a punch the filling falls off along the contact, and only the valley tells a gap from an edge.
 /// Three and more fields: pairs in fixed order, three sweeps.
 ///
@@ -45,8 +45,11 @@ struct ContactWork {
   double nodes = 0;             ///< pairs that pushed
   double driven = 0;            ///< work of prescribed rigid bodies on others, part of `work` [J]
   void add(const ContactWork& o) {
-    work += o.work, force_correction += o.force_correction, friction += o.friction,
-        nodes += o.nodes, driven += o.driven;
+    work += o.work;
+    force_correction += o.force_correction;
+    friction += o.friction;
+    nodes += o.nodes;
+    driven += o.driven;
   }
 };
 

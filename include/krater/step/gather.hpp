@@ -214,8 +214,11 @@ KRATER_FORCE_INLINE void note_limit(PatchResult& r, Pack rate, int kind, int g, 
   const Pack candidate = select(valid, rate, Pack(0.0));
   if (!any(candidate > Pack(r.max_rate))) return;
   for (int l = 0; l < kLanes; ++l)
-    if (get(candidate, l) > r.max_rate)
-      r.max_rate = get(candidate, l), r.limiter = kind, r.limiting_point = kLanes * g + l;
+    if (get(candidate, l) > r.max_rate) {
+      r.max_rate = get(candidate, l);
+      r.limiter = kind;
+      r.limiting_point = kLanes * g + l;
+    }
 }
 
 /// After the stages: shock indicator, time-step limits, internal energy of groups [first, last).

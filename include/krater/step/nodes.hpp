@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/nodes.hpp
-/// Work on node blocks: the sum of the tiles in their fixed order, and the momentum update
-///   v- = p/m,  dv = dt f/m,  v+ = v- + dv                                            (theory 2,
-///   CCF (1))
-/// Nodes lighter than 1e-12 of the lightest point get no force (f/m means nothing there) but keep v
-/// = p/m, so that no momentum is lost; a threshold in kg would break other unit scales.
+/// Work on node blocks: the sum of the tiles in their fixed order, and the momentum update (theory
+/// 2, CCF (1))
+///   v- = p/m,  dv = dt f/m,  v+ = v- + dv
+/// Nodes lighter than 1e-12 of the lightest point get no force (f/m means nothing there) but keep
+/// v = p/m, so that no momentum is lost; a threshold in kg would break other unit scales.
 #include "krater/step/gather.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -65,19 +65,25 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& 
     Pack old2 = 0.0, new2 = 0.0, dv2 = 0.0;
     for (int a = 0; a < 3; ++a) {
       const Pack minus = n[1 + a] * inverse, dv = n[4 + a] * step, plus = minus + dv;
-      old2 = fma(minus, minus, old2), new2 = fma(plus, plus, new2), dv2 = fma(dv, dv, dv2);
-      out[a] = plus, out[4 + a] = dv;
+      old2 = fma(minus, minus, old2);
+      new2 = fma(plus, plus, new2);
+      dv2 = fma(dv, dv, dv2);
+      out[a] = plus;
+      out[4 + a] = dv;
     }
     const Mask still = (old2 <= flush) & (new2 <= flush);  // false for a NaN
     for (int a = 0; a < 3; ++a) {
       out[a] = select(still, Pack(0.0), out[a]);
       out[4 + a] = select(still, Pack(0.0), out[4 + a]);
     }
-    old2 = select(still, Pack(0.0), old2), new2 = select(still, Pack(0.0), new2);
+    old2 = select(still, Pack(0.0), old2);
+    new2 = select(still, Pack(0.0), new2);
     moving = moving | !still;
     for (int c = 1; c < 7; ++c) loaded = loaded | (n[c] != Pack(0.0));
-    out[3] = m, out[7] = V;
-    before = fma(m, old2, before), after = fma(m, new2, after);
+    out[3] = m;
+    out[7] = V;
+    before = fma(m, old2, before);
+    after = fma(m, new2, after);
     change = max(change, select(V > Pack(kFilledNode * s.cell_volume), dv2, Pack(0.0)));
     transpose8(out);
     for (int i = 0; i < 8; ++i) store(record + 8 * i, out[i]);

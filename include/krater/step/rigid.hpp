@@ -47,7 +47,11 @@ struct RigidTwist {
 struct RigidImpulse {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   double work = 0;
-  void add(const RigidImpulse& o) { impulse += o.impulse, moment += o.moment, work += o.work; }
+  void add(const RigidImpulse& o) {
+    impulse += o.impulse;
+    moment += o.moment;
+    work += o.work;
+  }
 };
 
 class RigidBody {

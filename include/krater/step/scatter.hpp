@@ -2,8 +2,8 @@
 #pragma once
 /// \file step/scatter.hpp
 /// particles_to_grid of one patch:
-///   m_i = sum S m_p,  p_i = sum S m_p (v_p + L_p (x_i - x_p)),  f_i = sum (S m_p b_p - V_p sigma_p
-///   . grad S), V_i = sum S V_p;  axisymmetric: f_r -= V_p sigma_tt S/r_p.
+///   m_i = sum S m_p,  p_i = sum S m_p (v_p + L_p (x_i - x_p)),  V_i = sum S V_p,
+///   f_i = sum (S m_p b_p - V_p sigma_p . grad S);  axisymmetric: f_r -= V_p sigma_tt S/r_p.
 /// On a fixed reference V sigma F^-T takes the place of V sigma (step/configuration.hpp).
 #include "krater/step/cells.hpp"
 #include "krater/step/configuration.hpp"
@@ -36,7 +36,10 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
   const PatchOrigin origin = origin_of<Dim>(patch);
   const CellSums sums{w.cells, w.cells + kBlockNodes};
   double* beta = patch.beta.data();
-  if (s.average_cells) sums.clear(), clear_cells(beta);
+  if (s.average_cells) {
+    sums.clear();
+    clear_cells(beta);
+  }
   for (int g = 0; g < patch.groups(); ++g) {
     const LocalCell cell = local_cell<Dim>(*s.geometry, origin, x, g);
     if (!all(cell.inside)) {
@@ -49,7 +52,10 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
     sums.add(cells, m(g) / rho(g), p(g) + q(g));
     note_shock(cells, indicator(g), beta);
   }
-  if (s.average_cells) sums.divide(), shock_switch(beta);
+  if (s.average_cells) {
+    sums.divide();
+    shock_switch(beta);
+  }
   return true;
 }
 
@@ -83,10 +89,17 @@ KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c
   const Pack zero = 0.0;
   Pack check = m + V;
   for (Pack& channel : out.A) channel = zero;
-  out.A[0] = m, out.A[7] = V;
-  for (int a = 0; a < D; ++a)
-    out.A[1 + a] = m * v(g, a), out.A[4 + a] = m * b(g, a), check += out.A[1 + a] + out.A[4 + a];
-  if constexpr (Frame::hoop) out.A[4] = fnma(V, sigma(1, 1) / x(g, 0), out.A[4]), check += out.A[4];
+  out.A[0] = m;
+  out.A[7] = V;
+  for (int a = 0; a < D; ++a) {
+    out.A[1 + a] = m * v(g, a);
+    out.A[4 + a] = m * b(g, a);
+    check += out.A[1 + a] + out.A[4 + a];
+  }
+  if constexpr (Frame::hoop) {
+    out.A[4] = fnma(V, sigma(1, 1) / x(g, 0), out.A[4]);
+    check += out.A[4];
+  }
   InverseMap<D> inverse;
   if constexpr (Configuration::fixed) inverse = inverse_map<D>(column(c.map), g);
   const auto on_grid = [&](int i, int a) {  // component of J sigma F^-T; sigma where F = I
@@ -99,7 +112,10 @@ KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c
   for (int a = 0; a < D; ++a) {
     for (Pack& channel : out.B[a]) channel = zero;
     for (int i = 0; i < D; ++i) {
-      if constexpr (Affine) out.B[a][1 + i] = m * L(g, D * i + a), check += out.B[a][1 + i];
+      if constexpr (Affine) {
+        out.B[a][1 + i] = m * L(g, D * i + a);
+        check += out.B[a][1 + i];
+      }
       out.B[a][4 + i] = -(V * on_grid(i, a));
       check += out.B[a][4 + i];
     }

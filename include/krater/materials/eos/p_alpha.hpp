@@ -62,7 +62,9 @@ struct PAlpha {
     rho0 = constants.density;
     alpha0 = solid_density / rho0;
     per_range = 1.0 / (compaction_pressure - elastic_pressure);
-    solid.c0 = c0, solid.S1 = S1, solid.gamma0 = gamma0;
+    solid.c0 = c0;
+    solid.S1 = S1;
+    solid.gamma0 = gamma0;
     solid.prepare({solid_density, constants.shear_modulus, constants.initial_temperature});
   }
   const char* problem() const {
