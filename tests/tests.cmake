@@ -59,9 +59,13 @@ add_test(NAME style/includes
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/check_includes.py)
 add_test(NAME style/includes_self_test
   COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/check_includes.py --self-test)
+add_test(NAME style/references
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/check_references.py)
+add_test(NAME style/references_self_test
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/check_references.py --self-test)
 add_test(NAME style/format COMMAND ${PROJECT_SOURCE_DIR}/tools/check_format)
 set_tests_properties(style/format PROPERTIES SKIP_RETURN_CODE 77)
-set(style_tests style/includes style/includes_self_test style/format)
+set(style_tests style/includes style/includes_self_test style/references style/references_self_test style/format)
 if(isa_check_arguments)
   add_test(NAME style/isa COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/check_isa.py
     ${isa_check_arguments} COMMAND_EXPAND_LISTS)

@@ -123,7 +123,8 @@ void print_advice(const Scene& scene, double fastest, double closing) {
       fmt::print("advice: {}: johnson_cook without heating: no thermal softening\n", m.name);
     if (closing > 2000 && m.heating && m.heating->name == "plastic_work")
       fmt::print(
-          "advice: {}: impact at {:.0f} m/s: plastic_work misses the heat of the shock (theory 8); "
+          "advice: {}: impact at {:.0f} m/s: plastic_work misses the heat of the shock "
+          "(src/THEORY.md 8); "
           "heating: {{energy: {{c_v: ...}}}} sees it\n",
           m.name, closing);
   }

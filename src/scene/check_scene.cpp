@@ -35,7 +35,7 @@ std::string short_text(double value) {
   return text.str();
 }
 
-/// numerics.md A3: near the edge of a hat the nodal acceleration grows like 1/distance, and so does
+/// Theory 17: near the edge of a hat the nodal acceleration grows like 1/distance, and so does
 /// the velocity gradient with update usl; the part of the velocity that pure FLIP keeps lets it
 /// grow without bound.
 void check_method(Reading& reading) {
@@ -45,7 +45,7 @@ void check_method(Reading& reading) {
     const std::string shape = method.shape == Shape::gimp ? "gimp" : "linear";
     fail("method",
          "shape " + shape +
-             " is unstable with update usl and transfer flip (numerics A3); use update: musl, "
+             " is unstable with update usl and transfer flip (src/THEORY.md 17); use update: musl, "
              "transfer: tflip or shape: quadratic_bspline",
          reading);
   }
@@ -53,7 +53,7 @@ void check_method(Reading& reading) {
       reading.scene.time.cfl >= 0.5) {
     reading.scene.notes.push_back(
         "method: xpic of order " + std::to_string(method.xpic_order) +
-        " with update usl was unstable from cfl 0.5 on in tests (numerics A3)");
+        " with update usl was unstable from cfl 0.5 on in tests (src/THEORY.md 17)");
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace krater {
 
-// Returns the impulse of walls: they act on each term S+ S dv(l), which enters with a minus sign [N
-// s].
+// Returns the impulse of walls [N s]: they act on each term S+ S dv(l), which enters with a minus
+// sign.
 std::array<double, 3> MpmStep::filter_velocity() {
   // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
   // (2017), FMPM form.

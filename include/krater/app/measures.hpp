@@ -25,12 +25,12 @@
 ///   distance: the cloud and its mirror image. Points, not surface: a cloud fills no cell.
 /// - fragments: pieces (app/pieces.hpp) of at least `least_points` points.
 ///
-/// Height of a diameter. Points in a band about z0 are weighted with the B-spline K((z_p - z0) /
-/// b), b = 1.5 a (a is twice the initial point spacing), and the edge at z0 is that of the straight
-/// line R(z) fitted to the edge under these weights. A mushroom foot leans, R ~ R0 - k z: a mean
-/// over the band, or a kernel mirrored at the wall, lies 0.4 k b below R0; the fit is exact for a
-/// lean, at a wall and at a free end alike. What is left is curvature, -0.09 R'' b^2 at an end and
-/// +0.13 R'' b^2 inside.
+/// Height of a diameter. Points in a band about z0 are weighted with the B-spline
+/// K((z_p - z0) / b), b = 1.5 a (a is twice the initial point spacing), and the edge at z0 is that
+/// of the straight line R(z) fitted to the edge under these weights. A mushroom foot leans,
+/// R ~ R0 - k z: a mean over the band, or a kernel mirrored at the wall, lies 0.4 k b below R0; the
+/// fit is exact for a lean, at a wall and at a free end alike. What is left is curvature,
+/// -0.09 R'' b^2 at an end and +0.13 R'' b^2 inside.
 ///
 /// Measured (tests/unit/app/measures_test.cpp) on mapped staggered lattices, 2 points per cell and
 /// direction: feet 1.3 to 2.2 times the rod, k 0.3 to 1.5, stretch at the rim up to 3, compression

@@ -8,11 +8,10 @@
 ///   that the body fills. Not a number where the body is perforated (an empty line that the body
 ///   encloses).
 /// - crater_diameter: of the opening about the deepest line at the height `level` below the
-/// original
-///   face: where the fraction there is less than half of the largest at that height. Axisymmetric:
-///   2 r of its outer edge. Plane strain: its width, doubled at a symmetry plane. 3d: 2 sqrt(A /
-///   pi) of its area A, doubled at each symmetry plane it touches. 0: no line is that deep. A lip
-///   above the face does not count.
+///   original face: where the fraction there is less than half of the largest at that height.
+///   Axisymmetric: 2 r of its outer edge. Plane strain: its width, doubled at a symmetry plane.
+///   3d: 2 sqrt(A/pi) of its area A, doubled at each symmetry plane it touches. 0: no line is that
+///   deep. A lip above the face does not count.
 /// - hole_diameter: axisymmetric: 2 r of the innermost surface. 3d: 2 sqrt(A / pi) of the area A
 ///   through which one sees along z, the largest fraction on the line below 1/2; of several holes
 ///   the largest. So the narrowest place counts. 0: not perforated.

@@ -3,19 +3,19 @@
 /// \file app/volume_fraction.hpp
 /// The surface of a body made of points, by its volume fraction on a measuring grid
 ///
-///     phi_i = sum_p S(x_i - x_p) A_p / (a_1 .. a_d),   A_p = V_p, or V_p / (2 pi r_p) if
-///     axisymmetric,
+///     phi_i = sum_p S(x_i - x_p) A_p / (a_1 .. a_d),   A_p = V_p  (axisymmetric: V_p / (2 pi r_p))
 ///
 /// S: the quadratic B-spline, folded at closed planes, so that phi = 1 inside right up to the axis
 /// and the wall. Node spacing a: twice the initial spacing of the points.
 ///
-/// Where the surface is. A node line along one axis meets the surface beside its outermost phi =
-/// 1/2; linear interpolation there is wrong by up to 4 % of a, because phi is a smoothed step, and
-/// more where the last row of points is an odd one. So the place is refined to Gibbs' dividing
-/// surface: the sharp edge with the line's content,
+/// Where the surface is. A node line along one axis meets the surface beside its outermost
+/// phi = 1/2; linear interpolation there is wrong by up to 4 % of a, because phi is a smoothed
+/// step, and more where the last row of points is an odd one. So the place is refined to Gibbs'
+/// dividing surface: the sharp edge with the line's content,
 ///
-///     e = x_c + a sum_{i beyond c} phi_i / f,     x_c = x_j + a/2 between nodes,  f: the mean phi
-///     just inside x_c.
+///     e = x_c + a sum_{i beyond c} phi_i / f,
+///
+/// x_c = x_j + a/2 between nodes, f the mean phi just inside x_c.
 ///
 /// As S is a partition of unity the sum is exactly the content beyond a smooth step about x_c: the
 /// result does not depend on how the outermost points lie, only on their volume. Dividing by f

@@ -3,11 +3,12 @@
 /// \file step/audit.hpp
 /// The telescopic energy audit (theory 11). Each step's entries are measured from their own two
 /// sides:
-///   transfer_in  = KE_points - 1/2 sum m_I |v-|^2
+///   transfer_in   = KE_points - 1/2 sum m_I |v-|^2
 ///   work of internal forces, body forces, walls: their sum is the grid's change of kinetic energy
-///   transfer_out = 1/2 sum m_I |v+|^2 - KE_points,new;   dIE = sum m de;   time_centring = - W_int
-///   - dIE residual     = d(KE + IE) + transfer_in + transfer_out + time_centring - W_ext - W_wall
-///   - W_contact + removed
+///   transfer_out  = 1/2 sum m_I |v+|^2 - KE_points,new
+///   time_centring = - W_int - dIE,   dIE = sum m de
+///   residual      = d(KE + IE) + transfer_in + transfer_out + time_centring
+///                   - W_ext - W_wall - W_contact + removed
 /// The residual is an arithmetic check (round-off); the quality figure is energy_error_fraction.
 #include <array>
 
@@ -68,8 +69,8 @@ struct Audit {
            removed_energy;
   }
   /// (sum of transfers + time centring) / E_0, signed: what the scheme itself lost (positive) or
-  /// gained. E_0 is the kinetic energy at the start, or the external work where a scene starts at
-  /// rest.
+  /// gained. E_0 is the energy at the start, or the external work where a scene starts without
+  /// any.
   double error_fraction() const {
     const double start = initial_kinetic + initial_internal;
     const double scale = start > 0 ? start : external_work;

@@ -4,16 +4,17 @@
 /// Domain planes. Each lies on a line of nodes; points beyond half a cell of it also see one ghost
 /// node outside.
 /// - symmetry (and the axis r = 0), sticky: the ghost's sums are folded onto its mirror node before
-/// the momentum
-///   update, normal components odd, tangential even (sticky: all odd), the plane's own odd
-///   components vanish. This is the shape function S(x - x_i) +- S(x + x_i): exact for every shape,
-///   no special knots (numerics A1).
+///   the momentum update, normal components odd, tangential even (sticky: all odd), the plane's own
+///   odd components vanish. This is the shape function S(x - x_i) +- S(x + x_i): exact for every
+///   shape, no special knots (theory 19).
 /// - wall: unilateral. After the momentum update a column (ghost, plane, inner node) is in contact
-/// if the wall would
-///   push, J = -(2 m_g v_g + m_0 v_0).n > 0, and material touches the plane, 2 V_0 > (1 - tol)(V_1
-///   + V_g): the volume criterion of numerics A10 against the column's own fill, so that it also
-///   holds at the rim of a foot. Then the column is folded as above with Coulomb friction |J_t| <=
-///   mu J_n; otherwise it is left alone and the body flies off.
+///   if the wall would push,
+///     J = -(2 m_g v_g + m_0 v_0) . n > 0,
+///   and material touches the plane,
+///     2 V_0 > (1 - kFillTolerance) (V_1 + V_g),
+///   judged against the column's own fill, so that it also holds at the rim of a foot. Then the
+///   column is folded as above with Coulomb friction |J_t| <= mu J_n; otherwise it is left alone
+///   and the body flies off.
 /// - velocity: plane and ghost nodes move as prescribed.
 /// - open: nothing; points that leave are removed and accounted.
 #include <array>

@@ -40,7 +40,7 @@ struct SweepSettings {
   double dt = 0;
   double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
   bool may_sleep = false;      ///< blocks at rest may be passed over
-  bool average_cells = false;  ///< numerics A5
+  bool average_cells = false;  ///< theory 18
 };
 
 struct MomentumSettings {
@@ -54,8 +54,8 @@ struct MomentumSettings {
 struct SweepScratch {
   double* halo;            ///< tile_nodes * kNodeDoubles
   double* local;           ///< groups of a patch * local stride
-  double* cells;           ///< 4 * kBlockNodes
-  double* pressures;       ///< 8 per group: pressure of the force
+  double* cells;           ///< 2 * kBlockNodes: sum and mean of each cell
+  double* pressures;       ///< 8 per group: the cell of each point, to look its mean up
   unsigned char* leavers;  ///< 1 per group: lanes that left the block or the domain
   const double* zeros;
 };

@@ -2,7 +2,7 @@
 #pragma once
 /// \file step/migrate.hpp
 /// Points that left their block move to the neighbour, the others stay where they are: a full sort
-/// would cost as much as a step (numerics C2). Order is fixed: holes are filled from the end of the
+/// would cost as much as a step (theory 21). Order is fixed: holes are filled from the end of the
 /// patch, arrivals are appended by neighbour (lexicographic), then by their old index; so the bits
 /// do not depend on threads.
 #include "krater/step/audit.hpp"

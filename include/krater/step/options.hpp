@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file step/options.hpp
-/// What a scene may choose about the method; defaults are those of numerics.md and src/README.md
-/// (decisions).
+/// What a scene may choose about the method; reasons of the defaults: src/README.md (decisions).
 #include <array>
 #include <string>
 #include <vector>
@@ -34,7 +33,7 @@ struct MethodOptions {
   bool stagger = true;
   double jitter = 0;  ///< fraction of the point spacing
   unsigned seed = 1;
-  bool cell_averaging = true;                ///< numerics A5
+  bool cell_averaging = true;                ///< theory 18
   double flip_fraction = 0.99;               ///< TFLIP alpha
   bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
   Reference reference = Reference::current;  ///< configuration of the weights (theory 3)

@@ -2,7 +2,7 @@
 #pragma once
 /// \file step/weights.hpp
 /// Weights of 8 points at a time, and the tensor-product scatter and gather of one point over its
-/// 3^dim nodes (numerics C3): weights are computed over points, the sums run over the 8 channels of
+/// 3^dim nodes (theory 21): weights are computed over points, the sums run over the 8 channels of
 /// a node record.
 #include "krater/grid/blocks.hpp"
 #include "krater/grid/shape.hpp"
