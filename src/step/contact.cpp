@@ -12,13 +12,8 @@ namespace krater {
 
 namespace {
 
-// Depth of a valley in the filling, as a share, that is still no gap: gaps of 0.03 to 0.11 cells,
-// by the place of the joint in its cell. 0.06 lets bodies touch at 0.2 cells, 0.01 loses joints to
-// the unevenness of the lattices (impulse between bars of different impedance 2.4 % low).
-constexpr double kValley = 0.03;
-constexpr double kSteeper = 10;
-constexpr int kHalo = 2, kSweeps = 3, kMostContacts = 64;  // at a node
-constexpr int kMass = 3, kChange = 4, kVolume = 7;         // [v+, m, dv, V]
+constexpr int kHalo = 2, kSweeps = 3;
+constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
@@ -162,67 +157,6 @@ void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratc
     }
 }
 
-/// Central differences, smoothed across by (1 2 1)/4 along each other axis; in units of 1/cell.
-std::array<double, 3> ContactSet::gradient(const double* phi) const {
-  std::array<double, 3> out{};
-  const int dimension = geometry_.dimension;
-  for (int a = 0; a < dimension; ++a) {
-    const int t = stride_[(a + 1) % dimension], u = dimension == 3 ? stride_[(a + 2) % 3] : 0;
-    double slope = 0;
-    for (int i = -1; i <= 1; ++i)
-      for (int j = dimension == 3 ? -1 : 0; j <= (dimension == 3 ? 1 : 0); ++j) {
-        const int across = i * t + j * u;
-        slope += (2 - std::abs(i)) * (2 - std::abs(j)) *
-                 (phi[across + stride_[a]] - phi[across - stride_[a]]);
-      }
-    out[static_cast<unsigned>(a)] = slope / (dimension == 3 ? 32 : 16);
-  }
-  return out;
-}
-
-/// Of the nodes around `at` the one that both bodies fill best: there lies the joint.
-int ContactSet::joint_near(const double* phi_a, const double* phi_b, int at) const {
-  int joint = at;
-  const auto weigh = [&](int n) {
-    if (std::min(phi_a[n], phi_b[n]) > std::min(phi_a[joint], phi_b[joint])) joint = n;
-  };
-  const int depth = geometry_.dimension == 3 ? 1 : 0;
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j)
-      for (int k = -depth; k <= depth; ++k)
-        weigh(at + i * stride_[0] + j * stride_[1] + k * stride_[2]);
-  return joint;
-}
-
-bool ContactSet::find_contact(const Scratch& scratch, int fields, int at, Contact& contact) const {
-  const double* phi_a = scratch.filling.data() + contact.a * size_;
-  const double* phi_b = scratch.filling.data() + contact.b * size_;
-  const int joint = joint_near(phi_a, phi_b, at);
-  const std::array<double, 3> grad_a = gradient(phi_a + joint), grad_b = gradient(phi_b + joint);
-  // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
-  // that of the plate. Equal ones are averaged.
-  const double weight_a = std::pow(square(grad_a.data()), kSteeper),
-               weight_b = std::pow(square(grad_b.data()), kSteeper);
-  for (unsigned a = 0; a < 3; ++a) contact.normal[a] = weight_b * grad_b[a] - weight_a * grad_a[a];
-  const double length = std::sqrt(square(contact.normal.data()));
-  if (!(length > 0)) return false;
-  int axis = 0;
-  for (int a = 0; a < geometry_.dimension; ++a) {
-    contact.normal[static_cast<unsigned>(a)] /= length;
-    if (std::abs(contact.normal[static_cast<unsigned>(a)]) >
-        std::abs(contact.normal[static_cast<unsigned>(axis)]))
-      axis = a;
-  }
-  const auto total = [&](int n) {
-    double sum = 0;
-    for (int f = 0; f < fields; ++f)
-      sum += scratch.filling[static_cast<std::size_t>(f * size_ + n)];
-    return sum;
-  };
-  const double beside = 0.5 * (total(joint - stride_[axis]) + total(joint + stride_[axis]));
-  return total(joint) > (1 - kValley) * beside;
-}
-
 void ContactSet::exchange(double* a, double* b, const Contact& contact, double mu,
                           ContactWork& sum) const {
   const double reduced = a[kMass] * b[kMass] / (a[kMass] + b[kMass]);
@@ -251,7 +185,25 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   sum.nodes += 1;
 }
 
-/// Normal from the points; on a plane of symmetry it keeps no component across.
+/// A plane that mirrors has taken the odd components of momenta and forces from its nodes; an
+/// impulse must not bring them back. False: nothing is left to push along.
+bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
+  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
+    const auto axis = static_cast<unsigned>(a);
+    const int index = key.i[axis] * edge_ + rest % edge_;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (index != (side == 0 ? 1 : geometry_.cells[axis] + 1)) continue;
+      const BoundaryKind kind = conditions_[axis][side].kind;
+      if (kind == BoundaryKind::sticky) return false;
+      if (kind == BoundaryKind::symmetry) contact.normal[axis] = 0;
+    }
+  }
+  const double length = std::sqrt(square(contact.normal.data()));
+  for (double& n : contact.normal) n /= length;
+  return length > 0;
+}
+
+/// Normal from the points.
 void ContactSet::refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
                         const Group& group, Contact& contact) const {
   const NodeBlock& home = grid.node_blocks[group.first];
@@ -263,14 +215,7 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<BodyKernelData>
   const auto body = [&](int f) {
     return grid.node_blocks[group.first + static_cast<std::size_t>(f)].field;
   };
-  std::array<double, 3> normal = contact.normal;
-  regress_normal(grid, bodies, body(contact.a), body(contact.b), at, normal);
-  double length = 0;
-  for (unsigned a = 0; a < 3; ++a) {
-    if (contact.normal[a] == 0) normal[a] = 0;
-    length += normal[a] * normal[a];
-  }
-  for (unsigned a = 0; a < 3 && length > 0; ++a) contact.normal[a] = normal[a] / std::sqrt(length);
+  regress_normal(grid, bodies, body(contact.a), body(contact.b), at, contact.normal);
 }
 
 void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
@@ -283,22 +228,22 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<BodyKern
   };
   for (int n = 0; n < kBlockNodes; ++n) {
     const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
-    int count = 0, at = 0;
+    int at = 0;
     for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
       at += (rest % edge_ + kHalo) * stride_[a];
     for (int a = 0; a < group.fields; ++a)
       for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
-        if (!(mass(b) > 0) || count == kMostContacts) continue;
+        if (!(mass(b) > 0)) continue;
         if (rigid.find(block(a).field) && rigid.find(block(b).field)) continue;
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
         Contact contact{n, a, b, {}};
-        if (!find_contact(scratch, group.fields, at, contact)) continue;
+        if (!find_contact(scratch, at, contact)) continue;
         if (options_.normal == ContactNormal::logistic_regression)
           refine(grid, bodies, group, contact);
+        if (block(a).at_boundary && !keep_in_planes(block(a).key, contact)) continue;
         group.contacts.push_back(contact);
-        ++count;
       }
   }
 }

@@ -15,10 +15,13 @@
 /// Normal: n ~ |grad phi_B|^20 grad phi_B - |grad phi_A|^20 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
 /// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
-/// (step/contact_regression.hpp). Touching: a gap is a valley of the total filling along the grid
-/// axis nearest to n; they touch when phi(j) > (1 - kValley) (phi(j-1) + phi(j+1))/2. The volume
-/// criterion, sum phi > 1 - tol, is this one where bodies are wide; at the edge of
-/// a punch the filling falls off along the contact, and only the valley tells a gap from an edge.
+/// (step/contact_regression.hpp). In nodes of a plane that mirrors n keeps no component across it.
+/// Touching (step/contact_joint.cpp): bodies are apart as soon as one grid axis parts them. Along
+/// each axis that has A on one side of the joint and B on the other, either body's reach comes from
+/// its own three fillings: reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)), a
+/// face's place whatever part of the node's width the body takes, so that corners, edges and faces
+/// are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The volume
+/// criterion, sum phi > 1 - tol, is this one where both bodies are wide.
 /// Three and more fields: pairs in fixed order, three sweeps.
 ///
 /// Rigid fields (step/rigid.hpp) count as of infinite mass and move with their own velocity at the
@@ -125,7 +128,9 @@ class ContactSet {
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
   std::array<double, 3> gradient(const double* phi) const;
   int joint_near(const double* phi_a, const double* phi_b, int at) const;
-  bool find_contact(const Scratch& scratch, int fields, int at, Contact& contact) const;
+  double gap(const double* phi_a, const double* phi_b) const;
+  bool find_contact(const Scratch& scratch, int at, Contact& contact) const;
+  bool keep_in_planes(const BlockKey& key, Contact& contact) const;
   void exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;
 
   GridGeometry geometry_;
