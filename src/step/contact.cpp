@@ -238,9 +238,9 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<BodyKern
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
-        Contact contact{n, a, b, {}};
+        Contact contact{n, a, b, {}, false};
         if (!find_contact(scratch, at, contact)) continue;
-        if (options_.normal == ContactNormal::logistic_regression)
+        if (contact.even && options_.normal == ContactNormal::logistic_regression)
           refine(grid, bodies, group, contact);
         if (block(a).at_boundary && !keep_in_planes(block(a).key, contact)) continue;
         group.contacts.push_back(contact);

@@ -10,10 +10,12 @@ namespace krater {
 
 namespace {
 
-// Gap, in cells, at which bodies touch. Half of it loses joints to the unevenness of the lattices
-// (impulse between bars of different impedance 2.4 % low).
+// Gap, in cells, at which bodies touch. A third of it loses joints to the unevenness of the
+// lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kTouch = 0.05;
-constexpr double kSteeper = 10;
+// At 10 the corners of a block on a base still plough: 1.3 % too much friction at 20 cells, 0.4 %
+// at 40; without friction it lost 0.03 % of its speed, and now 0.001 %.
+constexpr double kSteeper = 40;
 // A body ends along an axis when it fills the node beyond at most half as well as the node before:
 // faces up to 70 degrees off do.
 constexpr double kEnds = 0.5;
@@ -89,8 +91,10 @@ bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) 
   const std::array<double, 3> grad_a = gradient(phi_a + joint), grad_b = gradient(phi_b + joint);
   // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
   // that of the plate. Equal ones are averaged.
-  const double weight_a = std::pow(square(grad_a.data()), kSteeper),
-               weight_b = std::pow(square(grad_b.data()), kSteeper);
+  const double a2 = square(grad_a.data()), b2 = square(grad_b.data());
+  const double lesser = std::pow(std::min(a2, b2) / std::max(a2, b2), kSteeper);
+  const double weight_a = a2 < b2 ? lesser : 1, weight_b = a2 < b2 ? 1 : lesser;
+  contact.even = lesser > 0.5;
   for (unsigned a = 0; a < 3; ++a) contact.normal[a] = weight_b * grad_b[a] - weight_a * grad_a[a];
   const double length = std::sqrt(square(contact.normal.data()));
   for (double& n : contact.normal) n /= length;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/step/contact_regression.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 namespace krater {
 
 namespace {
 
-constexpr double kReach = 1.5;  // cells: the support of a node
+constexpr double kReach = 1.5;    // cells: the support of a node
+constexpr double kBeside = 0.25;  // cells: half the distance of two points
 constexpr double kRidge = 1e-2;
 constexpr double kSharp = 4;  // |w| at the start: the labels blend over half a cell
 constexpr int kIterations = 15;
@@ -56,6 +59,34 @@ void collect(const BlockGrid& grid, const BodyKernelData& data, int body,
       }
 }
 
+/// Of both bodies only the points that face the other one, seen along the first guess: beyond a
+/// corner one body stands alone, and the plane would lean there.
+void keep_facing(const std::array<double, 3>& normal, int dimension, std::vector<Sample>& samples) {
+  const Eigen::Vector3d n{normal[0], normal[1], normal[2]};
+  std::array<Eigen::Vector3d, 2> along{Eigen::Vector3d{-n[1], n[0], 0}, Eigen::Vector3d::Zero()};
+  if (dimension == 3) {
+    along[0] = n.unitOrthogonal();
+    along[1] = n.cross(along[0]);
+  }
+  for (const Eigen::Vector3d& t : along) {
+    double first = -kReach, last = kReach;
+    for (const double label : {-1.0, 1.0}) {
+      double low = kReach, high = -kReach;
+      for (const Sample& s : samples) {
+        if (s.label != label) continue;
+        low = std::min(low, t.dot(s.at.head<3>()));
+        high = std::max(high, t.dot(s.at.head<3>()));
+      }
+      first = std::max(first, low - kBeside);
+      last = std::min(last, high + kBeside);
+    }
+    std::erase_if(samples, [&](const Sample& s) {
+      const double at = t.dot(s.at.head<3>());
+      return at < first || at > last;
+    });
+  }
+}
+
 }  // namespace
 
 void regress_normal(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, int body_a,
@@ -63,9 +94,11 @@ void regress_normal(const BlockGrid& grid, const std::vector<BodyKernelData>& bo
   thread_local std::vector<Sample> samples;
   samples.clear();
   collect(grid, bodies[static_cast<unsigned>(body_a)], body_a, node, -1, samples);
-  const std::size_t of_a = samples.size();
   collect(grid, bodies[static_cast<unsigned>(body_b)], body_b, node, 1, samples);
-  if (of_a < 3 || samples.size() - of_a < 3) return;
+  keep_facing(normal, grid.geometry().dimension, samples);
+  const auto of_a =
+      std::count_if(samples.begin(), samples.end(), [](const Sample& s) { return s.label < 0; });
+  if (of_a < 3 || std::ssize(samples) - of_a < 3) return;
   Weights w{kSharp * normal[0], kSharp * normal[1], kSharp * normal[2], 0};
   for (int k = 0; k < kIterations; ++k) {
     Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();

@@ -12,10 +12,11 @@
 /// sides the covered volume ends at the plane and phi is mirrored.
 /// Joint: of the node and those around it the one with the largest min(phi_A, phi_B); normal and
 /// gap are judged there, for in the tail of a body its gradient means nothing.
-/// Normal: n ~ |grad phi_B|^20 grad phi_B - |grad phi_A|^20 grad phi_A, central differences
+/// Normal: n ~ |grad phi_B|^80 grad phi_B - |grad phi_A|^80 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
 /// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
-/// (step/contact_regression.hpp). In nodes of a plane that mirrors n keeps no component across it.
+/// (step/contact_regression.hpp), where neither body is the wider one. In nodes of a plane that
+/// mirrors n keeps no component across it.
 /// Touching (step/contact_joint.cpp): bodies are apart as soon as one grid axis parts them. Along
 /// each axis that has A on one side of the joint and B on the other, either body's reach comes from
 /// its own three fillings: reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)), a
@@ -75,6 +76,7 @@ class ContactSet {
     int node;  ///< in the block
     int a, b;  ///< fields of the group
     std::array<double, 3> normal;
+    bool even;  ///< both bodies are about as wide at the joint
   };
   /// What one group does to one rigid body: impulses, or what foretells them.
   struct RigidShare {
