@@ -2,9 +2,10 @@
 """Numerical error of a number that was computed with three cells: the grid convergence index of Roache (ASME V&V 20).
 
 With values f3, f2, f1 of cells r^2 h, r h, h and order p = ln((f3 - f2)/(f2 - f1)) / ln r, Richardson's limit is
-f1 + (f1 - f2)/(r^p - 1), and the true value lies within U = F |f1 - f2|/(r^p - 1) of f1 in nine of ten cases or more (tests/scene/cell_error_test.py). F is 1.25
-where p says that the values converge as the scheme does (then U is at least |f1 - f2|: p is that of three values); else they are not in that range: F is 3 with order 1, and the
-band is at least 1.25 times the spread of all three, because the two finest may agree by accident.
+f1 + (f1 - f2)/(r^p - 1), and the true value lies within U = F |f1 - f2|/(r^p - 1) of f1 in nine of ten cases
+(tests/scene/cell_error_test.py). F is 1.25 where p says that the values converge as the scheme does (then U is at
+least |f1 - f2|: p is that of three values); else they are not in that range: F is 3 with order 1, and U is at least 1.25
+times the spread of all three, because the two finest may agree by accident.
 """
 
 import math

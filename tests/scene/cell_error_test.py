@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numerical error that tools/three_cells states: of sequences with a known limit, and of a run as a user sees it."""
+"""The numerical error that tools/three_cells states: of sequences with known limits, and of a run as a user sees it."""
 
 import os
 import subprocess
@@ -30,7 +30,8 @@ def sequences():
         order, noise = random.uniform(0.6, 2.0), 10 ** random.uniform(-4, -1)  # from smooth to noise alone
         values = [1 + 0.1 * h**order + noise * random.normal() for h in (1.0, 0.5, 0.25)]
         inside.append(abs(values[-1] - 1) <= error(values)[0])
-    check(np.mean(inside) >= 0.9, "of noisy sequences at least nine in ten limits lie in the band", f"{np.mean(inside):.3f}")
+    share = np.mean(inside)
+    check(share >= 0.9, "of noisy sequences nine in ten limits lie in the band", f"{share:.3f}")
     # Taylor copper, 2h, h, h/2 and then h/4 (validation/taylor_copper): wavering values.
     for name, values, finer in (("length", (17.296, 17.319, 17.317), 17.334), ("W", (9.491, 9.497, 9.472), 9.447)):
         check(abs(finer - values[-1]) <= error(values)[0], f"{name} at h/4 lies in the band of the three coarser cells")
@@ -43,11 +44,13 @@ def run_of_three():
                           capture_output=True, text=True, check=False, env={**os.environ, "KRATER": KRATER})
     if not check(done.returncode == 0, "three_cells runs", done.stderr[-500:]):
         return
-    lines = {line.split()[0]: line.split() for line in done.stdout.splitlines() if line.startswith("  ") and line.split()}
+    rows = [line.split() for line in done.stdout.splitlines() if line.startswith("  ")]
+    lines = {row[0]: row for row in rows if row}
     for name, exact in (("velocity", -333.4), ("thickness", 18.0)):
         value, band = float(lines[name][4]), float(lines[name][5])
         check(abs(value - exact) <= band + 1e-3 * abs(exact), f"{name}: {value} +- {band}, exact {exact}")
-    check(os.path.exists("out_cells/h_2/summary.json") and "nine of ten" in done.stdout, "the runs lie beside, the words explain")
+    check(os.path.exists("out_cells/h_2/summary.json"), "the runs lie beside")
+    check("nine of ten" in done.stdout, "the words explain")
 
 
 with Folder():
