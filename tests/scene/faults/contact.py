@@ -23,3 +23,26 @@ def phantom():
         rows = history(frame)
         check(np.max(np.abs(rows["vz"] + 20)) < 1e-6, f"03 {frame}: block", np.max(rows["vz"]))
         check(np.max(np.abs(rows["vp"])) < 1e-6, f"03 {frame}: plate", np.min(rows["vp"]))
+
+
+GAS = """frame: plane_strain
+grid: {cell: 2 mm, box: {min: [0, 0], max: [8 mm, 60 mm]}, boundary: {x_min: symmetry, x_max: symmetry}}
+time: {end: 1 us}
+materials:
+  tnt: {density: 1630, eos: {jwl: {A: 371.2 GPa, B: 3.231 GPa, R1: 4.15, R2: 0.95, omega: 0.3, E0: 7 GPa}}}
+  air: {density: 1.2, eos: {ideal_gas: {gamma: 1.4, p0: 100 kPa}}}
+bodies:
+  charge: {material: tnt, shape: {box: {min: [0, -1, 0], max: [8 mm, 1, 20 mm]}}}
+  gas: {material: air, shape: {box: {min: [0, -1, 20 mm], max: [8 mm, 1, 60 mm]}}}
+"""
+
+
+@fault("one-field", "unlike materials that share a velocity field are doubted by check, and not with contact")
+def one_field():
+    with open("gas.yaml", "w", encoding="utf-8") as file:
+        file.write(GAS)
+    for more, doubted in (((), True), (("--set", "contact.friction=0"), False)):
+        done = krater("check", "gas.yaml", *more)
+        check(done.returncode == 0, "one field: exit code", done.text)
+        check(("charge" in done.text and "share one velocity field" in done.text.split("doubt: ", 1)[-1]) == doubted,
+              f"one field: doubted {more}", done.text)
