@@ -5,6 +5,7 @@
 
 #include "krater/app/card_doctor.hpp"
 #include "krater/app/command_line.hpp"
+#include "krater/app/field_doubts.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/simulation.hpp"
@@ -199,6 +200,7 @@ void print_check(const RunOptions& options) {
                  key, key);
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
+  for (const std::string& doubt : doubt_fields(scene)) fmt::print("doubt: {}\n", doubt);
 }
 
 }  // namespace krater

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies must not push before they touch, wherever corner, edge or face lie on the grid, and
-// whichever way they move. One step at each gap: what has no pair of nodes in contact has no force.
+// whichever way they move; where they touch the normal must be theirs. One step at each gap: what
+// has no pair of nodes in contact has no force.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -209,5 +210,23 @@ TEST_SUITE("verification") {
         CHECK(most == 0);
         CHECK(run.sim->totals().momentum[1] == doctest::Approx(start.momentum[1]).epsilon(1e-12));
       }
+  }
+
+  TEST_CASE("without friction a block slides on, whatever the normals are made of") {
+    for (const std::string normal : {"volume_gradient", "logistic_regression"}) {
+      Run run = start_text(
+          "frame: plane_strain\ngrid: {cell: 0.001, box: {min: [-0.04, -0.012], max: [0.06, "
+          "0.02]}}\ntime: {end: 1}\nmaterials: {steel: {density: 7850, youngs_modulus: 200e9, "
+          "poisson_ratio: 0.3, eos: linear, strength: elastic}}\nbodies:\n  base: {material: "
+          "steel, shape: {box: {min: [-0.03, -1, -0.01], max: [0.05, "
+          "1, 0]}}}\n  block: {material: steel, shape: {box: {min: [-0.01, -1, 0], max: [0.01, 1, "
+          "0.01]}}, velocity: [100, 0]}\ncontact: {friction: 0, normal: " +
+          normal + "}\n");
+      run_to(run, 1e-4);  // ten cells
+      const Totals block = run.sim->totals(1);
+      MESSAGE(normal, ": ", block.momentum[0] / block.mass, " m/s along, of 100; ",
+              block.momentum[1] / block.mass, " m/s up");
+      CHECK(block.momentum[0] / block.mass == doctest::Approx(100).epsilon(2e-4));
+    }
   }
 }

@@ -341,23 +341,6 @@ TEST_SUITE("verification") {
     }
   }
 
-  TEST_CASE("without friction a block slides on, whatever the normals are made of") {
-    for (const std::string normal : {"volume_gradient", "logistic_regression"}) {
-      Run run = start_text(
-          "frame: plane_strain\ngrid: {cell: 0.001, box: {min: [-0.04, -0.012], max: [0.06, "
-          "0.02]}}\ntime: {end: 1}\nmaterials:\n" +
-          material(kSteel) +
-          "bodies:\n  base: {material: steel, shape: {box: {min: [-0.03, -1, -0.01], max: [0.05, "
-          "1, 0]}}}\n  block: {material: steel, shape: {box: {min: [-0.01, -1, 0], max: [0.01, 1, "
-          "0.01]}}, velocity: [100, 0]}\ncontact: {friction: 0, normal: " +
-          normal + "}\n");
-      run_to(run, 1e-4);  // ten cells
-      MESSAGE(normal, ": ", velocity_of(run, 1, 0), " m/s along, of 100; ", velocity_of(run, 1, 1),
-              " m/s up");
-      CHECK(velocity_of(run, 1, 0) == doctest::Approx(100).epsilon(2e-4));
-    }
-  }
-
   // The way of points to nodes and back is another matter: L is the velocity gradient, not the
   // affine matrix of APIC that would keep angular momentum exactly, so a whole step drifts with
   // contact as without (validation/spin_and_discs).
