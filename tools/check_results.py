@@ -4,8 +4,8 @@
 
 frames.xmf is XML whose every reference leads to an HDF5 array of the stated shape and number type with
 finite values, and which says nothing that frames.h5 does not; history.csv is a table with times that
-never decrease, history.h5 is the same table; summary.json is JSON. Fields that may be infinite or NaN on
-purpose are named with --allow-nonfinite.
+increase, history.h5 is the same table; summary.json is JSON. NaN is the documented value of a measure
+that selects no point. Fields that may be infinite or NaN on purpose are named with --allow-nonfinite.
 """
 
 import argparse
@@ -35,6 +35,7 @@ class Checker:
         self.errors = []
         self.files = {}
         self.count = 0
+        self.measures = set()  # columns that may be NaN: nothing was selected
 
     def error(self, message):
         self.errors.append(message)
@@ -186,7 +187,8 @@ class Checker:
             if len(row) != len(rows[0]):
                 return self.error(f"history.csv:{number}: {len(row)} columns, {len(rows[0])} titles")
             for title, value in zip(rows[0], table[-1]):
-                if not math.isfinite(value) and title.split(" [")[0] not in self.allowed:
+                name = title.split(" [")[0]
+                if not (math.isfinite(value) or name in self.allowed or (math.isnan(value) and name in self.measures)):
                     self.error(f"history.csv:{number}: {title} is {value}")
         table = np.array(table)
         if (np.diff(table[:, 0]) <= 0).any():
@@ -209,8 +211,11 @@ class Checker:
     def summary(self):
         try:
             with open(self.path("summary.json"), encoding="utf-8") as file:
-                if not isinstance(json.load(file), dict):
-                    self.error("summary.json: not an object")
+                summary = json.load(file)
+            if not isinstance(summary, dict):
+                self.error("summary.json: not an object")
+            elif isinstance(summary.get("measures"), dict):
+                self.measures = set(summary["measures"])
         except (OSError, ValueError) as error:
             self.error(f"summary.json: {error}")
 
@@ -224,9 +229,9 @@ def main():
     arguments = parser.parse_args()
     checker = Checker(arguments.folder, set(arguments.allow_nonfinite), arguments.killed)
     checker.frames()
-    checker.history()
     if not arguments.killed or os.path.exists(checker.path("summary.json")):
         checker.summary()
+    checker.history()
     if checker.count == 0:
         checker.error("no array was checked")
     for message in checker.errors:

@@ -26,7 +26,9 @@ class Body:
 
     def __init__(self, name, group, summary):
         self.name = name
-        self.x = group["coordinates"][()]
+        x = group["coordinates"][()]
+        self.kept = np.isfinite(x).all(axis=1)  # a broken run may hold points that are nowhere
+        self.x = x[self.kept]
         self.fields = group
         self.side = self.spacing(summary)  # of the square or cube that each point stands for
         self.volume = self.volumes(frame_of(summary, self.x))
@@ -34,7 +36,7 @@ class Body:
     def volumes(self, frame):
         """Of a full ring in axisymmetry, per length in plane strain."""
         if "mass" in self.fields and "density" in self.fields:
-            return self.fields["mass"][()] / self.fields["density"][()]
+            return self.values("mass") / self.values("density")
         return {"axisymmetric": 2 * math.pi * self.x[:, 0] * self.side ** 2,
                 "3d": self.side ** 3}.get(frame, self.side ** 2)
 
@@ -47,7 +49,7 @@ class Body:
                 widths = widths[widths > 0]
                 side = (np.prod(widths) / len(self.x)) ** (1 / len(widths)) if len(widths) else 1e-3
             return np.full(len(self.x), side)
-        volume = self.fields["mass"][()] / self.fields["density"][()]
+        volume = self.values("mass") / self.values("density")
         frame = frame_of(summary, self.x)
         if frame == "3d":
             return np.cbrt(volume)
@@ -56,7 +58,7 @@ class Body:
         return np.sqrt(volume)
 
     def values(self, field):
-        return self.fields[field][()] if field in self.fields else None
+        return self.fields[field][()][self.kept] if field in self.fields else None
 
 
 def frame_of(summary, x):
@@ -78,11 +80,14 @@ class Run:
             raise OSError("no frame in frames.h5")
         if "frame" not in self.summary and "frame_of_reference" in self.file.attrs:
             self.summary["frame"] = self.file.attrs["frame_of_reference"]
-        self.frame = frame_of(self.summary, np.concatenate([b.x for b in self.bodies(self.numbers[-1])]))
+        self.names = sorted({name for number in (self.numbers[0], self.numbers[-1]) for name in self.file["frames"][number]})
+        start = [b.x for b in self.bodies(self.numbers[0])]
+        x = np.concatenate(start) if start else np.zeros((0, 3))
+        self.frame = frame_of(self.summary, x)
         self.summary["frame"] = self.frame
         self.history = read_history(os.path.join(folder, "history.csv"))
         self.planes = closed_planes(folder)
-        y = np.concatenate([b.x[:, 1] for b in self.bodies(self.numbers[0])])
+        y = x[:, 1]
         through = len(y) == 0 or y.min() <= 0 <= y.max() or (1, 0.0, 1) in self.planes
         self.section_y = 0.0 if through else 0.5 * (y.min() + y.max())
 
@@ -91,7 +96,8 @@ class Run:
 
     def bodies(self, number):
         group = self.file["frames"][number]
-        return [Body(name, group[name], self.summary) for name in group if len(group[name]["id"])]
+        bodies = [Body(name, group[name], self.summary) for name in group if len(group[name]["id"])]
+        return [body for body in bodies if len(body.x)]
 
     def title(self):
         return str(self.summary.get("title") or os.path.basename(os.path.abspath(self.folder)))
@@ -132,7 +138,7 @@ class Colouring:
     """One field with one scale for all pictures of a run."""
 
     def __init__(self, run, numbers):
-        last = run.bodies(run.numbers[-1])
+        last = [b for n in numbers for b in run.bodies(n)]
         names = ("plastic_strain", "pressure", "density", "temperature")
         self.field = next((n for n in names if any(n in b.fields for b in last)), None)
         self.norm, self.factor, self.label, self.extend = colors.Normalize(0, 1), 1.0, "", "neither"

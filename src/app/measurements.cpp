@@ -227,12 +227,15 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
   const std::vector<double> now = values(sim, true);
   Json measures, fragments;
   Selections selections{sim};
+  nothing_.clear();
   for (std::size_t i = 0; i < now.size(); ++i) {
     const MeasureOptions& m = scene.measures[i];
     Json& measure = measures[m.name] = measure_json(m, scene, start_[i], series_[i], now[i]);
     if (!sim.broken() &&
         rarefied(m, selections.points(m.selection), selections.context(m.selection)))
       measure["rarefied"] = Json::of(true);
+    if (std::isnan(now[i]) && !sim.broken() && selections.points(m.selection).mass.empty())
+      nothing_.push_back(m.name);
     if (m.kind != MeasureKind::fragments || sim.broken()) continue;
     MeasureSelection with_dust = m.selection;
     with_dust.least_points = 0;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "krater/app/folder_lock.hpp"
+#include "krater/app/machine.hpp"
 #include "krater/app/measurements.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/schedule.hpp"
@@ -56,12 +57,16 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-/// The command that continues a run from its checkpoint.
-std::string continuation(const RunOptions& options, const std::string& folder) {
+std::string command(const RunOptions& options, const std::string& folder) {
   std::string text = "krater run " + quoted(options.scene);
   for (const std::string& setting : options.overrides) text += " --set " + quoted(setting);
   if (options.threads > 0) text += fmt::format(" -j {}", options.threads);
-  return text + " -o " + quoted(folder) + " --restart " + quoted(folder + "/checkpoint.h5");
+  return text + " -o " + quoted(folder);
+}
+
+/// The command that continues a run from its checkpoint.
+std::string continuation(const RunOptions& options, const std::string& folder) {
+  return command(options, folder) + " --restart " + quoted(folder + "/checkpoint.h5");
 }
 
 class Runner {
@@ -85,7 +90,11 @@ class Runner {
   void write_history();
   void write_frame(double time);
   void write_checkpoint();
-  void tell_warnings(Progress& progress);
+  /// To the log, and aloud unless --quiet.
+  void tell(const std::string& line);
+  void tell_always(const std::string& line);
+  void tell_progress(Progress& progress);
+  void start_log();
   int fail(const std::string& message, Progress& progress);
   Json summary(const std::string& status, double seconds);
   int finish(const std::string& status, const std::string& message, int code,
@@ -99,6 +108,7 @@ class Runner {
   FolderLock lock_;
   int frame_ = 0;
   std::int64_t first_step_ = 0;
+  std::string changed_;  ///< keys of the scene, since the checkpoint
 };
 
 void Runner::begin() {
@@ -114,6 +124,7 @@ void Runner::begin() {
   try {
     if (!options_.restart.empty()) results_.continue_from(sim_.time(), history_titles());
     results_.write_text("resolved.yaml", scene_.resolved);
+    start_log();
     if (options_.restart.empty()) {
       write_frame(sim_.time());
       write_history();
@@ -155,11 +166,7 @@ void Runner::resume() {
     throw InputError(options_.restart + ": damaged, or written by another version of krater");
   }
   measurements_.restore(checkpoint, sim_.scene(), changed_measures(differences));
-  if (!differences.empty() && !options_.quiet) {
-    std::string paths;
-    for (const SceneDifference& d : differences) paths += (paths.empty() ? "" : ", ") + d.path;
-    say("krater: note: changed since the checkpoint: " + paths);
-  }
+  for (const SceneDifference& d : differences) changed_ += (changed_.empty() ? "" : ", ") + d.path;
   const CheckpointBlob* counters = checkpoint.find("output");
   if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
   first_step_ = sim_.steps();
@@ -210,11 +217,10 @@ int Runner::go() {
         progress.finish();
         const std::string message = "interrupted: checkpoint written; continue with: " +
                                     continuation(options_, results_.path());
-        say("krater: " + message);
+        tell_always(message);
         return finish("interrupted", message, kInterrupted, progress);
       }
       sim_.step(frames.next());
-      tell_warnings(progress);
       if (history.due(sim_.time()) || scene_.output.history <= 0) {
         write_history();
         history.advance(sim_.time());
@@ -228,7 +234,7 @@ int Runner::go() {
         write_checkpoint();
         last_checkpoint = progress.seconds();
       }
-      progress.show();
+      tell_progress(progress);
     }
   } catch (const NumericalError& e) {
     return fail(e.what(), progress);
@@ -238,12 +244,38 @@ int Runner::go() {
   return finish("done", "", kDone, progress);
 }
 
-void Runner::tell_warnings(Progress& progress) {
-  if (options_.quiet) return;  // they come at the end
+void Runner::tell(const std::string& line) {
+  if (!options_.quiet) say("krater: " + line);
+  results_.write_log(line);
+}
+
+void Runner::tell_always(const std::string& line) {
+  say("krater: " + line);
+  results_.write_log(line);
+}
+
+void Runner::tell_progress(Progress& progress) {
+  const std::string line = progress.show();
+  if (!line.empty()) {
+    if (!progress.on_terminal() && !options_.quiet) say("krater: " + line);
+    results_.write_log(line);
+  }
+  if (options_.quiet) return;  // warnings come at the end
   for (const std::string& text : sim_.warnings().unsaid()) {
     progress.finish();
-    say("krater: warning: " + text);
+    tell("warning: " + text);
   }
+}
+
+void Runner::start_log() {
+  const Version v = version();
+  std::string text = command(options_, results_.path());
+  const std::string& checkpoint = options_.restart;
+  if (!checkpoint.empty()) text += " --restart " + quoted(checkpoint);
+  results_.write_log(
+      fmt::format("krater {} ({}), {} threads: {}", v.program, v.revision, threads(), text));
+  for (const std::string& note : scene_.notes) tell("note: " + note);
+  if (!changed_.empty()) tell("note: changed since the checkpoint: " + changed_);
 }
 
 /// The state as it was when the step broke, for a look: a frame and a row just after the last good
@@ -251,7 +283,7 @@ void Runner::tell_warnings(Progress& progress) {
 /// only: one to continue from with a shorter step must not be lost to a broken one.
 int Runner::fail(const std::string& message, Progress& progress) {
   progress.finish();
-  say("krater: " + message);
+  tell_always(message);
   if (!sim_.broken()) write_checkpoint();
   const double after = sim_.time() > 0
                            ? std::nextafter(sim_.time(), std::numeric_limits<double>::infinity())
@@ -274,6 +306,11 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
   measurements_.summarize(sim_, j);
+  std::string names;
+  for (const std::string& name : measurements_.without_points())
+    names += (names.empty() ? "" : ", ") + name;
+  sim_.warnings().judge("measures_without_points", !names.empty(), sim_.time(),
+                        "no point is left for the measures " + names);
   j["warnings"] = sim_.warnings().json();
   j["audit"] = audit_json(sim_);
   Json& limiters = j["dt_limiters"];
@@ -289,6 +326,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   machine["threads"] = Json::of(static_cast<std::int64_t>(threads()));
   machine["instruction_set"] = Json::of(std::string{name_of(sim_.isa_level())});
   machine["bytes_per_point"] = Json::of(sim_.bytes_per_point());
+  machine["peak_resident_bytes"] = Json::of(peak_resident_bytes());
   machine["wall_seconds"] = Json::of(seconds);
   const double work =
       static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
@@ -311,17 +349,15 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   results_.write_summary(s);
   results_.flush();
   const double failed = sim_.audit().removed_failed;
-  if (failed > 0 && !options_.quiet)
-    say(fmt::format("krater: note: {:.0f} points failed and were removed, as the scene asks",
-                    failed));
+  if (failed > 0)
+    tell(fmt::format("note: {:.0f} points failed and were removed, as the scene asks", failed));
   const std::vector<Warning>& warnings = sim_.warnings().all();
-  for (const Warning& warning : warnings) say("krater: warning: " + sentence(warning));
+  for (const Warning& warning : warnings) tell_always("warning: " + sentence(warning));
   const std::string with = warnings.empty() ? ""
                                             : fmt::format(" with {} warning{}", warnings.size(),
                                                           warnings.size() > 1 ? "s" : "");
-  if (!options_.quiet)
-    say(fmt::format("krater: {}{} after {} steps, results in {}", status, with, sim_.steps(),
-                    results_.path()));
+  tell(fmt::format("{}{} after {} steps, results in {}", status, with, sim_.steps(),
+                   results_.path()));
   return code == kDone && options_.strict && !warnings.empty() ? int{kWarned} : code;
 }
 
@@ -331,8 +367,6 @@ int run(const RunOptions& options) {
   set_threads(options.threads);
   flush_denormals();
   Scene scene = read_scene(options.scene, options.overrides);
-  if (!options.quiet)
-    for (const std::string& note : scene.notes) say("krater: note: " + note);
   return Runner{options, std::move(scene)}.go();
 }
 

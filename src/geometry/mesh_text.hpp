@@ -2,6 +2,7 @@
 // Words and numbers of a text file in memory, with the line they stand on.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -46,9 +47,16 @@ class MeshText {
     }
   }
 
+  /// Whether two words are the same, capitals or not.
+  static bool same(std::string_view a, std::string_view b) {
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&small](char x, char y) { return small(x) == small(y); });
+  }
+
   void expect(std::string_view wanted) {
     const std::string_view found = word();
-    if (found != wanted) {
+    if (!same(found, wanted)) {
       fail("expected '" + std::string(wanted) + "', found " + shown(found));
     }
   }

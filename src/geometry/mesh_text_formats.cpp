@@ -21,13 +21,14 @@ void believe(const MeshText& text, const char* what, std::int64_t count, std::si
 }
 
 Triangles read_ascii_stl(const std::string& file, std::string_view data) {
+  if (data.starts_with("\xef\xbb\xbf")) data.remove_prefix(3);
   MeshText text(file, data);
   text.expect("solid");
   text.next_line();
   Triangles out;
-  for (std::string_view word = text.word(); word != "endsolid"; word = text.word()) {
+  for (std::string_view word = text.word(); !MeshText::same(word, "endsolid"); word = text.word()) {
     if (word.empty()) text.fail("the file ends before 'endsolid': it is cut short");
-    if (word != "facet") {
+    if (!MeshText::same(word, "facet")) {
       text.fail("expected 'facet' or 'endsolid', found " + MeshText::shown(word));
     }
     text.expect("normal");
@@ -86,27 +87,31 @@ Triangles read_binary_stl(const std::string& file, std::string_view data, std::s
   return out;
 }
 
+/// The text behind a byte order mark and blanks, when it begins with "solid" as ASCII STL does.
+/// Binary files may begin so too, but hold zeros.
+std::string_view stl_text(std::string_view data) {
+  if (data.starts_with("\xef\xbb\xbf")) data.remove_prefix(3);
+  data.remove_prefix(std::min(data.find_first_not_of(" \t\r\n"), data.size()));
+  const bool text = MeshText::same(data.substr(0, 5), "solid") &&
+                    data.substr(0, 2000).find('\0') == std::string_view::npos;
+  return text ? data : std::string_view{};
+}
+
 }  // namespace
 
 Triangles read_stl(const std::string& file, std::string_view data) {
-  const bool says_solid = data.substr(0, 5) == "solid";
-  if (data.size() >= 84) {
-    const std::uint64_t count = little_endian(data.data() + 80);
-    if (data.size() == 84 + 50 * count) return read_binary_stl(file, data, count);
-    const bool text = says_solid && data.substr(0, 2000).find('\0') == std::string_view::npos;
-    if (!text) {
-      throw std::invalid_argument(
-          file + ": a binary STL file of " + std::to_string(count) + " facets has " +
-          std::to_string(84 + 50 * count) + " bytes, this one has " + std::to_string(data.size()) +
-          (data.size() < 84 + 50 * count ? ": it is cut short, or no STL file"
-                                         : ": something follows the last facet"));
-    }
-  }
-  if (!says_solid) {
+  const std::uint64_t count = data.size() >= 84 ? little_endian(data.data() + 80) : 0;
+  if (data.size() >= 84 && data.size() == 84 + 50 * count)
+    return read_binary_stl(file, data, count);
+  if (!stl_text(data).empty()) return read_ascii_stl(file, data);
+  if (data.size() < 84)
     throw std::invalid_argument(file +
                                 ": neither an ASCII STL file ('solid ...') nor a binary one");
-  }
-  return read_ascii_stl(file, data);
+  throw std::invalid_argument(
+      file + ": a binary STL file of " + std::to_string(count) + " facets has " +
+      std::to_string(84 + 50 * count) + " bytes, this one has " + std::to_string(data.size()) +
+      (data.size() < 84 + 50 * count ? ": it is cut short, or no STL file"
+                                     : ": something follows the last facet"));
 }
 
 Triangles read_off(const std::string& file, std::string_view data) {

@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <unordered_map>
 
 #include "krater/geometry/affine.hpp"
 #include "mesh_formats.hpp"
+#include "surface_topology.hpp"
 
 namespace krater {
 namespace {
@@ -85,6 +87,18 @@ std::vector<std::uint32_t> representatives(const std::vector<Vector3>& vertices,
   return same;
 }
 
+/// Facets that are neighbours by the places of their corners only: split at seams of texture or
+/// normals. Where the numbers of the corners close the surface they are believed, so that parts
+/// which touch stay apart.
+bool has_open_edges(const Triangles& triangles) {
+  bool open = false;
+  for_edges(triangles,
+            [&open](const HalfEdge* first, const HalfEdge* last) { open |= last - first == 1; });
+  return open;
+}
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 }  // namespace
 
 Triangles read_triangles(const std::string& file, double unit) {
@@ -95,15 +109,17 @@ Triangles read_triangles(const std::string& file, double unit) {
   }
   Triangles out;
   {
-    const std::string data = read_file(file);
-    if (data.empty()) throw std::invalid_argument(file + ": is empty");
+    const std::string bytes = read_file(file);
+    if (bytes.empty()) throw std::invalid_argument(file + ": is empty");
+    std::string_view data = bytes;
     if (ending == ".stl") out = read_stl(file, data);
+    if (data.starts_with(kByteOrderMark)) data.remove_prefix(kByteOrderMark.size());
     if (ending == ".off") out = read_off(file, data);
     if (ending == ".obj") out = read_obj(file, data);
     if (ending == ".ply") out = read_ply(file, data);
   }
   if (out.facets.empty()) throw std::invalid_argument(file + ": has no facets");
-  if (ending == ".stl") weld(out, 0);
+  if (ending == ".stl" || has_open_edges(out)) weld(out, 0);
   for (Vector3& x : out.vertices) {
     for (double& value : x) value *= unit;
   }

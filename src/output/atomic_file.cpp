@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <string>
 #include <system_error>
 
 #include "krater/output/results.hpp"
@@ -47,6 +49,25 @@ void replace_file(const std::string& path, std::string_view bytes) {
     ::unlink(part.c_str());
     fail(path, error);
   }
+}
+
+void replace_tail(const std::string& path, std::size_t begin, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) fail(path, errno);
+  struct stat status {};
+  int error = ::fstat(descriptor, &status) != 0 ? errno : 0;
+  const auto from = static_cast<off_t>(begin);
+  std::string old(static_cast<std::size_t>(std::max<off_t>(status.st_size - from, 0)), '\0');
+  if (error == 0 && ::pread(descriptor, old.data(), old.size(), from) < 0) error = errno;
+  if (error == 0 && ::lseek(descriptor, from, SEEK_SET) < 0) error = errno;
+  if (error == 0) error = write_all(descriptor, bytes);
+  const auto end = from + static_cast<off_t>(error == 0 ? bytes.size() : old.size());
+  // What was there fits again: its bytes are still allotted to the file.
+  if (error != 0 && ::lseek(descriptor, from, SEEK_SET) >= 0) write_all(descriptor, old);
+  if (::ftruncate(descriptor, end) != 0 && error == 0) error = errno;
+  if (error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) error = errno;
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error != 0) fail(path, error);
 }
 
 LineAppender::~LineAppender() { close(); }

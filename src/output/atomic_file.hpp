@@ -17,6 +17,10 @@ std::string reason(int error_number);
 /// leaves an older `path` as it was, and throws OutputError.
 void replace_file(const std::string& path, std::string_view bytes);
 
+/// Writes `bytes` from `begin` on, as the new end of an existing file, in one write: a reader, or a
+/// kill, sees the old end or the new one. On failure puts the old end back and throws OutputError.
+void replace_tail(const std::string& path, std::size_t begin, std::string_view bytes);
+
 /// Appends whole lines: one write per line, so that no reader and no kill ever sees half a line.
 class LineAppender {
  public:

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <system_error>
@@ -52,7 +54,8 @@ void write_field(const Node& group, const BodyFrame& body, const FieldArray& fie
   const Shape shape = field.components == 1
                           ? Shape{points}
                           : Shape{points, static_cast<std::uint64_t>(field.components)};
-  const Node dataset = group.make_dataset(field.name, shape, field.values.data());
+  const Node dataset =
+      group.make_dataset(field.name, shape, field.values.data(), Node::Storage::compressed);
   dataset.set("unit", field.unit);
   dataset.set("meaning", field.meaning);
   if (!field.component_names.empty()) dataset.set("component_names", field.component_names);
@@ -63,16 +66,18 @@ void write_body(const Node& file, const BodyFrame& body) {
   require(is_usable_name(body.body), body, "unusable name");
   require(body.coordinates.size() == 3 * points, body, "three coordinates per point expected");
   const Node group = file.make_group(body.body);
-  const Node ids = group.make_dataset("id", {points}, body.ids.data());
+  const Node ids = group.make_dataset("id", {points}, body.ids.data(), Node::Storage::compressed);
   ids.set("unit", std::string("1"));
   ids.set("meaning", std::string("number of the point in its body, for ever"));
-  const Node coordinates = group.make_dataset("coordinates", {points, 3}, body.coordinates.data());
+  const Node coordinates = group.make_dataset("coordinates", {points, 3}, body.coordinates.data(),
+                                              Node::Storage::compressed);
   coordinates.set("unit", std::string("m"));
   coordinates.set("meaning", std::string("position (x, y, z); axisymmetric (r, 0, z)"));
   coordinates.set("component_names", std::vector<std::string>{"x", "y", "z"});
   std::vector<std::int64_t> cells(points);
   std::iota(cells.begin(), cells.end(), 0);
-  const Node topology = group.make_dataset("cells", {points}, cells.data());
+  const Node topology =
+      group.make_dataset("cells", {points}, cells.data(), Node::Storage::compressed);
   topology.set("meaning", std::string("0, 1, 2, ...: one vertex per point, for frames.xmf"));
   for (const auto& field : body.fields) write_field(group, body, field);
 }
@@ -86,6 +91,8 @@ void remove_file(const fs::path& path) {
 }  // namespace
 
 void FrameSeries::remove_all() {
+  frames_.clear();
+  links_.reset();
   // The lists go first: they must not name frames that are no longer there.
   for (const char* name : {"frames.xmf", "frames.h5"}) {
     remove_file(folder_ + "/" + name);
@@ -99,33 +106,29 @@ void FrameSeries::remove_all() {
   }
 }
 
+std::size_t FrameSeries::end_of_list() const {
+  return frames_.empty() ? kXdmfHead.size() : frames_.back().end;
+}
+
 void FrameSeries::load() {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_ + "/frames", error)) {
-    const auto number = frame_number(entry.path().filename().string());
-    if (!number) continue;
-    try {
-      const Node file = open_file(entry.path().string());
-      times_[*number] = file.number("time");
-      grids_[*number] = file.text("xdmf");
-    } catch (const InputError&) {
-      times_.erase(*number);  // not a frame; a later frame of this number replaces it
-    }
-  }
+  std::ifstream stream(list(), std::ios::binary);
+  frames_ = listed_frames({std::istreambuf_iterator<char>(stream), {}});
+  const auto not_a_series = std::adjacent_find(
+      frames_.begin(), frames_.end(),
+      [](const ListedFrame& a, const ListedFrame& b) { return !(a.time < b.time); });
+  if (not_a_series != frames_.end()) frames_.erase(not_a_series + 1, frames_.end());
 }
 
 void FrameSeries::truncate_after(double time, const TextAttributes& attributes) {
-  std::vector<int> late;
-  for (const auto& [number, frame_time] : times_) {
-    if (frame_time > time) late.push_back(number);
-  }
-  if (late.empty()) return;
-  for (const int number : late) {
-    times_.erase(number);
-    grids_.erase(number);
-  }
-  write_index(attributes);
-  for (const int number : late) remove_file(folder_ + "/" + frame_file(number));
+  const auto first = std::find_if(frames_.begin(), frames_.end(),
+                                  [time](const ListedFrame& f) { return f.time > time; });
+  const std::vector<ListedFrame> late(first, frames_.end());
+  frames_.erase(first, frames_.end());
+  if (frames_.empty()) return;
+  links_.reset();
+  save_links(attributes);
+  replace_tail(list(), end_of_list(), kXdmfTail);
+  for (const ListedFrame& frame : late) remove_file(folder_ + "/" + frame_file(frame.number));
 }
 
 void FrameSeries::write(const OutputFrame& frame, const TextAttributes& attributes) {
@@ -133,28 +136,40 @@ void FrameSeries::write(const OutputFrame& frame, const TextAttributes& attribut
   std::error_code error;
   fs::create_directories(folder_ + "/frames", error);
   if (error) throw OutputError(folder_ + "/frames: cannot be created: " + error.message());
-  const std::string grid = frame_grid(frame, frame_file(frame.number));
   MemoryFile file(folder_ + "/" + frame_file(frame.number));
   file.set(attributes);
   file.set("time", frame.time);
   file.set("step", frame.step);
-  file.set("xdmf", grid);  // a restarted run lists this frame in frames.xmf without reading it
   for (const auto& body : frame.bodies) write_body(file, body);
   file.save();
-  times_[frame.number] = frame.time;
-  grids_[frame.number] = grid;
-  write_index(attributes);
+  // A run that is continued elsewhere may find frames of another one there.
+  const auto clash = std::find_if(frames_.begin(), frames_.end(), [&frame](const ListedFrame& f) {
+    return f.number >= frame.number || f.time >= frame.time;
+  });
+  if (clash != frames_.end()) {
+    frames_.erase(clash, frames_.end());
+    links_.reset();
+  }
+  const std::string grid = frame_grid(frame, frame_file(frame.number));
+  if (frames_.empty()) replace_file(list(), std::string(kXdmfHead).append(kXdmfTail));
+  const std::size_t begin = end_of_list();
+  frames_.push_back({frame.number, frame.time, begin, begin + grid.size()});
+  save_links(attributes);
+  replace_tail(list(), begin, grid + std::string(kXdmfTail));
 }
 
-void FrameSeries::write_index(const TextAttributes& attributes) const {
-  MemoryFile file(folder_ + "/frames.h5");
-  file.set(attributes);
-  const Node frames = file.make_group("frames");
-  for (const auto& [number, grid] : grids_) {
-    frames.link_external(six_digits(number), frame_file(number), "/");
+void FrameSeries::save_links(const TextAttributes& attributes) {
+  if (!links_) {
+    links_.emplace(folder_ + "/frames.h5");
+    links_->set(attributes);
+    links_->make_group("frames");
+    linked_ = 0;
   }
-  file.save();
-  replace_file(folder_ + "/frames.xmf", xdmf_document(grids_));
+  for (; linked_ < frames_.size(); ++linked_) {
+    const int number = frames_[linked_].number;
+    links_->link_external("frames/" + six_digits(number), frame_file(number), "/");
+  }
+  links_->save();
 }
 
 }  // namespace krater::output

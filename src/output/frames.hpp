@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file output/frames.hpp
-/// The frames of a run: one file per frame, never touched again, and two small files that list
-/// them.
-#include <map>
+/// The frames of a run: one file per frame, never touched again, and two small files that list them
+/// and grow by what a frame adds, so that a frame costs the same whatever their number. A run that
+/// is continued reads frames.xmf, which is text: it opens no HDF5 file of an earlier run.
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "krater/output/results.hpp"
+#include "output/hdf5_file.hpp"
+#include "output/xdmf.hpp"
 
 namespace krater::output {
 
@@ -20,10 +24,13 @@ class FrameSeries {
   void write(const OutputFrame& frame, const TextAttributes& attributes);
 
  private:
-  void write_index(const TextAttributes& attributes) const;
+  std::string list() const { return folder_ + "/frames.xmf"; }
+  std::size_t end_of_list() const;
+  void save_links(const TextAttributes& attributes);  ///< frames.h5
   std::string folder_;
-  std::map<int, std::string> grids_;  ///< XDMF of every frame
-  std::map<int, double> times_;
+  std::vector<ListedFrame> frames_;  ///< in order of time
+  std::optional<MemoryFile> links_;  ///< frames.h5 as it is
+  std::size_t linked_ = 0;           ///< frames in it
 };
 
 }  // namespace krater::output

@@ -41,9 +41,11 @@ class Node {
   Node(Handle handle, std::string file, Mode mode);
 
   Node make_group(const std::string& name) const;
+  enum class Storage { plain, compressed };
   /// `values` may be null when the shape holds no element. Types: double, int64, unsigned char.
   template <class T>
-  Node make_dataset(const std::string& name, const Shape& shape, const T* values) const;
+  Node make_dataset(const std::string& name, const Shape& shape, const T* values,
+                    Storage storage = Storage::plain) const;
   void link_external(const std::string& name, const std::string& file,
                      const std::string& path) const;
   void set(const std::string& attribute, const std::string& text) const;

@@ -35,7 +35,8 @@ struct ResultsFolder::Impl {
     } else {
       frames.remove_all();
       history.remove_all();
-      for (const char* name : {"checkpoint.h5", "summary.json", "point.csv", "point.h5"}) {
+      for (const char* name :
+           {"checkpoint.h5", "summary.json", "point.csv", "point.h5", "log.txt"}) {
         fs::remove(path + "/" + name, error);
         fs::remove(path + "/" + name + output::kPartSuffix, error);
       }
@@ -49,6 +50,7 @@ struct ResultsFolder::Impl {
   TextAttributes attributes;
   output::FrameSeries frames;
   output::History history;
+  output::LineAppender log;
 };
 
 ResultsFolder::ResultsFolder(std::string path, bool resume) {
@@ -109,6 +111,16 @@ void ResultsFolder::write_text(const std::string& name, const std::string& text)
   }
   impl_->prepare();
   output::replace_file(impl_->path + "/" + name, text);
+}
+
+void ResultsFolder::write_log(const std::string& line) {
+  try {
+    impl_->prepare();
+    if (!impl_->log.is_open()) impl_->log.open(impl_->path + "/log.txt");
+    impl_->log.append(line + "\n");
+  } catch (const std::exception&) {
+    // The next file that cannot be written says why.
+  }
 }
 
 void ResultsFolder::flush() {

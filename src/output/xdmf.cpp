@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/xdmf.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "output/format.hpp"
 
 namespace krater::output {
 namespace {
+
+constexpr std::string_view kFrameEnd = "\n    </Grid>\n";  // no body's grid ends so
 
 std::string xml(const std::string& text) {
   std::string result;
@@ -99,15 +104,27 @@ std::string frame_grid(const OutputFrame& frame, const std::string& file) {
   for (const auto& body : frame.bodies) {
     if (!body.ids.empty()) result += body_grid(body, file);  // readers stumble over empty grids
   }
-  return result + "    </Grid>\n";
+  result.pop_back();  // the end begins with its line break
+  return result.append(kFrameEnd);
 }
 
-std::string xdmf_document(const std::map<int, std::string>& grids) {
-  std::string result =
-      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-      "  <Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const auto& [number, grid] : grids) result += grid;
-  return result + "  </Grid>\n  </Domain>\n</Xdmf>\n";
+std::vector<ListedFrame> listed_frames(const std::string& document) {
+  std::vector<ListedFrame> list;
+  if (!document.starts_with(kXdmfHead)) return list;
+  ListedFrame next;
+  for (next.begin = kXdmfHead.size();; next.begin = next.end) {
+    const std::size_t close = document.find(kFrameEnd, next.begin);
+    if (close == std::string::npos) return list;
+    next.end = close + kFrameEnd.size();
+    const std::string grid = document.substr(next.begin, next.end - next.begin);
+    const std::size_t time = grid.find("<Time Value=\"");
+    if (std::sscanf(grid.c_str(), "    <Grid Name=\"frame %9d\"", &next.number) != 1 ||
+        time == std::string::npos || next.number < 0 ||
+        std::sscanf(grid.c_str() + time, "<Time Value=\"%lf\"", &next.time) != 1 ||
+        !std::isfinite(next.time))
+      return list;
+    list.push_back(next);
+  }
 }
 
 }  // namespace krater::output

@@ -2,7 +2,6 @@
 // The steps of a scene, timed one by one: `tools/bench` builds and runs it. No files are written
 // and nothing is measured on the way, so that two runs of different length differ by steps alone
 // (counts of instructions), and a median over steps is not that of the machine's other users.
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "krater/app/machine.hpp"
 #include "krater/app/simulation.hpp"
 #include "krater/core/parallel.hpp"
 
@@ -182,8 +182,6 @@ void print_state(const Simulation& sim) {
   for (const Patch& p : sim.grid().patches)
     record += 8.0 * p.count * sim.bodies()[static_cast<std::size_t>(p.body)]->layout().stride() /
               kLanes / static_cast<double>(sim.point_count());
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
   std::printf("{\"points\": %zu, \"steps\": %lld, \"threads\": %d, \"instruction_set\": \"%s\",\n",
               sim.point_count(), static_cast<long long>(sim.steps()), threads(),
               name_of(sim.isa_level()));
@@ -195,7 +193,7 @@ void print_state(const Simulation& sim) {
       " \"record_bytes\": %.2f, \"bytes_per_point\": %.2f, \"resident_bytes_per_point\": %.2f, "
       "\"hash\": \"%016llx\",\n",
       record, sim.bytes_per_point(),
-      1024.0 * static_cast<double>(usage.ru_maxrss) / static_cast<double>(sim.point_count()),
+      static_cast<double>(peak_resident_bytes()) / static_cast<double>(sim.point_count()),
       static_cast<unsigned long long>(state_hash(sim)));
 }
 

@@ -39,6 +39,9 @@ class Measurements {
   /// "measures": value, unit, definition, reference and difference; "fragments": lists of pieces.
   void summarize(const Simulation& sim, Json& summary);
 
+  /// Names of the measures that selected no point in the last summary.
+  const std::vector<std::string>& without_points() const { return nothing_; }
+
   void save(Checkpoint& checkpoint, const Scene& scene) const;
   /// Measures that the checkpoint does not know, or that have `changed` since, start here.
   void restore(const Checkpoint& checkpoint, const Scene& scene,
@@ -49,6 +52,7 @@ class Measurements {
 
   std::vector<MeasureStart> start_;    ///< by measure
   std::vector<MeasureSeries> series_;  ///< by measure
+  std::vector<std::string> nothing_;
 };
 
 }  // namespace krater

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/progress.hpp
-/// One line on stderr, renewed twice a second, only on a terminal.
+/// How far a run is. On a terminal one line on stderr, renewed twice a second; behind a pipe, and
+/// for the log, a line after 10, 20, 40 ... seconds, at last every ten minutes.
 #include <chrono>
 #include <string>
 
@@ -16,15 +17,20 @@ void say(const std::string& line);
 class Progress {
  public:
   Progress(const Simulation& sim, bool quiet);
-  void show();             ///< when it is time
-  void finish();           ///< ends the line
+  /// Renews the terminal's line when it is time. Returns a line that is due behind a pipe and for
+  /// the log, else "".
+  std::string show();
+  bool on_terminal() const { return terminal_; }
+  void finish();           ///< ends the terminal's line
   double seconds() const;  ///< of wall clock since construction
 
  private:
   using Clock = std::chrono::steady_clock;
+  std::string line() const;
   const Simulation& sim_;
-  bool active_;
+  bool terminal_;
   Clock::time_point start_, last_;
+  double next_line_ = 10;  ///< [s] of wall clock
   double start_time_;
   std::int64_t start_steps_;
 };

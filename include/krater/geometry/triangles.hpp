@@ -18,10 +18,11 @@ struct Triangles {
   std::vector<std::array<std::uint32_t, 3>> facets;
 };
 
-/// Format by the file's ending; lengths are multiplied by `unit` (m). STL's vertices are welded
-/// where they are equal to the last bit, for the format has no other way to say that facets join.
-/// Throws std::invalid_argument with file, line or byte and what is wrong; counts in a header are
-/// believed only as far as the file is long.
+/// Format by the file's ending; lengths are multiplied by `unit` (m). Vertices that are equal to
+/// the last bit are welded in STL, which has no other way to say that facets join, and in surfaces
+/// that their own numbering leaves open (corners listed once per face). Throws
+/// std::invalid_argument with file, line or byte and what is wrong; counts in a header are believed
+/// only as far as the file is long.
 Triangles read_triangles(const std::string& file, double unit);
 
 /// Vertices nearer than `distance` to an earlier one become that one (0: equal ones only); unused

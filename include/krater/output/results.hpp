@@ -124,8 +124,9 @@ class ResultsFolder {
   /// NAME.csv and NAME.h5, whole.
   void write_table(const std::string& name, const std::vector<TableColumn>& columns);
   void write_summary(const Json& summary);                            ///< summary.json
-  void write_text(const std::string& name, const std::string& text);  ///< resolved.yaml, log.txt
-  void flush();  ///< history.h5 catches up with history.csv
+  void write_text(const std::string& name, const std::string& text);  ///< resolved.yaml
+  void write_log(const std::string& line);  ///< log.txt; never throws: no run ends for its log
+  void flush();                             ///< history.h5 catches up with history.csv
 
  private:
   struct Impl;

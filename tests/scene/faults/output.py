@@ -11,7 +11,8 @@ import numpy as np
 import yaml
 
 from faults_support import fault, scene
-from scene_support import check, command, differences, environment, history, krater, run, settings, summary
+from scene_support import (ROOT, check, command, environment, history, krater, results_errors, run, settings,
+                           summary)
 
 LEAVES = ["time.end=6 us", "grid.cell=0.762 mm", "grid.box={min: [0, 0], max: [6 mm, 26 mm]}",
           "bodies.rod.velocity=[0, 300 m/s]"]  # through the open upper side
@@ -202,3 +203,120 @@ def checkpoint_bit():
 @fault("b18-long", "a flipped bit in a checkpoint is said to be damage", long=True)
 def checkpoint_many_bits():
     checkpoint_bits(200)
+
+
+@fault("20", "coincident corners are one in every format; an ASCII STL may be in capitals")
+def split_vertices():
+    source = scene("20")
+    pathlib.Path("20-obj-split-vertices.obj").write_bytes(source.with_suffix(".obj").read_bytes())
+    pathlib.Path("20.yaml").write_bytes(source.read_bytes())
+    vertices, facets = [], []
+    for line in source.with_suffix(".obj").read_text(encoding="utf-8").splitlines():
+        key, *words = line.split()
+        (vertices if key == "v" else facets).append([float(w) if key == "v" else int(w) - 1 for w in words])
+    triangles = [(f[0], f[k], f[k + 1]) for f in facets for k in (1, 2)]
+    stl = "SOLID CUBE\r\n" + "".join(
+        "FACET NORMAL 0 0 0\r\nOUTER LOOP\r\n" + "".join("VERTEX {} {} {}\r\n".format(*vertices[c]) for c in t) +
+        "ENDLOOP\r\nENDFACET\r\n" for t in triangles) + "ENDSOLID CUBE\r\n"
+    pathlib.Path("21.stl").write_text("\ufeff" + stl, encoding="utf-8", newline="")
+    header = (f"ply\nformat ascii 1.0\nelement vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
+              f"element face {len(facets)}\nproperty list uchar int vertex_indices\nend_header\n")
+    pathlib.Path("20.ply").write_text(header + "".join("{} {} {}\n".format(*v) for v in vertices) +
+                                      "".join("4 {} {} {} {}\n".format(*f) for f in facets), encoding="utf-8")
+    for surface in ("20-obj-split-vertices.obj", "20.ply", "21.stl"):
+        done = krater("run", "20.yaml", "-o", "out", "-j", 1, "--quiet", "--set", f"bodies.b.shape.surface.file={surface}")
+        check(done.returncode == 0 and abs(summary("out")["audit"]["mass"] / 1e-3 - 1) < 1e-6, f"20: {surface}: 1 cm^3",
+              f"{done.returncode}: {done.stderr.strip()}")
+
+
+def tool(name, *arguments):
+    return subprocess.run([str(ROOT / "tools" / name), *arguments], capture_output=True, text=True, check=False,
+                          env=environment())
+
+
+def pictures(folder, *names):
+    done = tool("plot_run", folder)
+    lacking = [name for name in names if not pathlib.Path(folder, "pictures", f"{name}.png").exists()]
+    check(done.returncode == 0 and not lacking, f"plot_run {folder}", f"{done.returncode}, lacks {lacking}: {done.stderr[-300:]}")
+
+
+@fault("22", "pictures and checks of a run of which nothing is left")
+def all_points_fail():
+    coarse = ["--set", "grid.cell=2 mm"]
+    done = krater("run", scene("22"), "-o", "gone", "-j", 1, *coarse)
+    errors = results_errors("gone")
+    check(done.returncode == 0 and not errors, "22: results are sound; nan is the value of a body that is gone", errors)
+    check(np.isnan(history("gone")["v"][-1]) and summary("gone")["measures"]["v"]["value"] is None
+          and [w["kind"] for w in summary("gone")["warnings"]][-1:] == ["measures_without_points"],
+          "22: and a warning names the measure", summary("gone")["warnings"])
+    check(tool("show_summary", "gone").returncode == 0, "22: show_summary")
+    check(tool("to_vtkhdf", "gone").returncode == 0, "22: to_vtkhdf")
+
+
+@fault("22-pictures", "pictures of a run of which nothing is left, of one frame, without a history or summary", long=True)
+def pictures_of_nothing():
+    coarse = ["--set", "grid.cell=2 mm"]
+    krater("run", scene("22"), "-o", "gone", "-j", 1, "--quiet", *coarse)
+    pictures("gone", "final_shape", "shapes", "energy", "dt", "measures")
+    # The other ends: one frame only, no history, no summary.
+    krater("run", scene("22"), "-o", "short", "-j", 1, "--quiet", *coarse, "--set", "time.end=0.01 us")
+    pictures("short", "final_shape", "energy")
+    for name in ("history.csv", "history.h5", "summary.json"):
+        pathlib.Path("short", name).unlink()
+    pictures("short", "final_shape")
+
+
+@fault("22-100", "pictures of 100 bodies", long=True)
+def hundred_bodies():
+    file = row_of_bodies(100)
+    krater("run", file, "-o", "many", "-j", 1, "--quiet")
+    pictures("many", "final_shape", "shapes", "energy", "dt")
+    check(not results_errors("many"), "22: results of 100 bodies")
+    done = tool("plot_scene", file, "-o", "setup.png")
+    check(done.returncode == 0, "22: plot_scene of 100 bodies", done.stderr[-300:])
+
+
+@fault("difference", "a difference is told in the direction of the reference")
+def difference():
+    run("out", "time.end=1 us", "grid.cell=0.762 mm",
+        "measures.v={kind: mean_velocity, body: rod, axis: z}", "references.v={value: -250 m/s, source: made up}")
+    v = summary("out")["measures"]["v"]
+    expected = 100 * (v["value"] / -250 - 1)
+    check(-40 < expected < -20 and abs(v["difference_percent"] - expected) < 1e-9, "slower: negative in summary.json", v)
+    row = next(line for line in tool("show_summary", "out").stdout.splitlines() if line.strip().startswith("v "))
+    check(f"{expected:+.2f}" in row.split(), "and in show_summary", row)
+
+
+@fault("told", "a run behind a pipe says how far it is; log.txt holds what was said; memory is krater's own")
+def told():
+    ballast = bytearray(300 << 20)  # what launches krater must not be counted
+    run("out", "time.end=0.5 us", "grid.cell=0.762 mm", *LEAVES[3:])
+    del ballast
+    machine = summary("out")["machine"]
+    check(2e6 < machine["peak_resident_bytes"] < 100e6, "peak memory of the program itself", machine["peak_resident_bytes"])
+    log = pathlib.Path("out/log.txt").read_text(encoding="utf-8")
+    check("done after" in log and log.startswith("krater "), "log.txt", log)
+
+
+@fault("pipe", "lines of progress in a pipe after 10, 20 ... seconds", long=True)
+def pipe():
+    process = subprocess.Popen(command("run", ROOT / "inputs" / "taylor_copper.yaml", "-o", "slow", "-j", "1",
+                                       *settings(["grid.cell=0.1 mm"])), stderr=subprocess.PIPE, text=True, env=environment())
+    line = process.stderr.readline()
+    process.terminate()
+    process.communicate()
+    check(" left " in line and " step " in line and "\r" not in line, "a line of progress", line)
+    check(line.split()[0] in pathlib.Path("slow/log.txt").read_text(encoding="utf-8"), "and in the log")
+
+
+@fault("frames", "frames are compressed, and a frame costs the same whatever their number")
+def frames():
+    run("out", "time.end=4 us")
+    with h5py.File("out/frames.h5", "r") as file:
+        rod = file["frames"][max(file["frames"])]["rod"]
+        check(rod["velocity"].compression == "gzip" and rod["velocity"].shuffle, "deflated and shuffled")
+        raw = sum(item.nbytes for item in rod.values())
+        stored = sum(item.id.get_storage_size() for item in rod.values())
+        check(stored < 0.75 * raw, "three quarters of the size at most", f"{stored} of {raw} bytes")
+    with open("out/frames.xmf", encoding="utf-8") as file:
+        check(file.read().endswith("</Xdmf>\n"), "frames.xmf is whole")

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 
@@ -210,6 +212,79 @@ TEST_SUITE("unit") {
     const Triangles quads = read_triangles(folder.write("q.off", cube), 1);
     CHECK(quads.facets.size() == 12);
     CHECK(make_surface_solid(quads)->moments()->volume == doctest::Approx(1));
+  }
+
+  TEST_CASE("mesh files: corners split at seams are one where they coincide") {
+    const ScratchFolder folder;
+    const Triangles box = box_surface({{-1, -2, -3}, {1, 2, 3}});
+    Triangles split;  // every facet with corners of its own
+    for (const auto& f : box.facets) {
+      const auto n = static_cast<std::uint32_t>(split.vertices.size());
+      for (const std::uint32_t c : f) split.vertices.push_back(box.vertices[c]);
+      split.facets.push_back({n, n + 1, n + 2});
+    }
+    const std::vector<std::pair<const char*, std::string>> files{
+        {"a.off", off(split)},
+        {"a.obj", obj(split)},
+        {"a.ply", ply(split, "ascii")},
+        {"b.ply", ply(split, "binary_little_endian")}};
+    for (const auto& [name, text] : files) {
+      CAPTURE(name);
+      const Triangles t = read_triangles(folder.write(name, text), 1);
+      CHECK(t.vertices.size() == 8);
+      CHECK_FALSE(examine_surface(t).any());
+      CHECK(make_surface_solid(t)->moments()->volume == doctest::Approx(48).epsilon(1e-12));
+    }
+  }
+
+  TEST_CASE("mesh files: parts that touch at an edge stay apart where their corners do") {
+    const ScratchFolder folder;
+    Triangles two = box_surface({{0, 0, 0}, {1, 1, 1}});
+    const Triangles other = box_surface({{1, 1, 0}, {2, 2, 1}});
+    const auto first = static_cast<std::uint32_t>(two.vertices.size());
+    two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const auto& f : other.facets)
+      two.facets.push_back({f[0] + first, f[1] + first, f[2] + first});
+    CHECK(read_triangles(folder.write("two.obj", obj(two)), 1).vertices.size() == 16);
+  }
+
+  TEST_CASE("mesh files: ASCII STL in capitals, behind a byte order mark, blanks, with CRLF") {
+    const ScratchFolder folder;
+    const std::string plain = ascii_stl(box_surface({{-1, -2, -3}, {1, 2, 3}}));
+    std::string capitals = plain, returns;
+    for (char& c : capitals)
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+    for (const char c : plain) returns += c == '\n' ? std::string{"\r\n"} : std::string{c};
+    int number = 0;
+    for (const std::string& text : {capitals, returns, "\xef\xbb\xbf" + plain, "  \n\t" + plain,
+                                    "\xef\xbb\xbf \r\n" + capitals}) {
+      CAPTURE(number);
+      const Triangles t = read_triangles(folder.write(std::to_string(number++) + ".stl", text), 1);
+      CHECK(t.vertices.size() == 8);
+      CHECK(t.facets.size() == 12);
+    }
+    for (const char* name : {"mark.obj", "mark.off", "mark.ply"}) {
+      const Triangles box = box_surface({{-1, -2, -3}, {1, 2, 3}});
+      const std::string ending = std::string{name}.substr(5);
+      const std::string text = ending == "obj"   ? obj(box)
+                               : ending == "off" ? off(box)
+                                                 : ply(box, "ascii");
+      CHECK(read_triangles(folder.write(name, "\xef\xbb\xbf" + text), 1).facets.size() == 12);
+    }
+  }
+
+  TEST_CASE("mesh files: a binary STL file whose header begins with 'solid' is binary") {
+    const ScratchFolder folder;
+    const std::string file = (folder.path() / "solid.stl").string();
+    write_stl(box_surface({{-1, -2, -3}, {1, 2, 3}}), file, 1);
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    for (const char* start : {"solid part", "SOLID"}) {
+      bytes.replace(0, std::string{start}.size(), start);
+      CHECK(read_triangles(folder.write("s.stl", bytes), 1).vertices.size() == 8);
+      const std::string cut = folder.write("cut.stl", bytes.substr(0, bytes.size() - 10));
+      CHECK(message_of_file(cut).find("cut short") != std::string::npos);
+    }
   }
 
   TEST_CASE("mesh files: every malformed file is refused with its name and the reason") {
