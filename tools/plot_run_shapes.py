@@ -339,8 +339,12 @@ def draw_measure(axes, run, bodies, measure, box, mm):
     value, wanted = measure["value"] / mm, reference_of(measure)[0]
     wanted = wanted / mm if wanted is not None else None
     kind = measure.get("kind")
-    if kind == "diameter" and position_of(measure) is not None:
-        z = position_of(measure) / mm
+    at = position_of(measure) if kind == "diameter" else None
+    if kind == "largest_diameter":  # where it was found is not told: at the widest row of points
+        low = points[points[:, 2] <= points[:, 2].min() + measure.get("within", np.inf) / mm]
+        at = mm * low[np.argmax(np.abs(low[:, 0] - points[:, 0].mean() * (run.frame != "axisymmetric"))), 2]
+    if at is not None:
+        z = at / mm
         cut = [at / mm for axis, at, _ in run.planes
                if axis == 0 and np.abs(points[:, 0] - at / mm).min() < 2 * np.median(half)]  # half a body is drawn
         centre = cut[0] if cut else 0.5 * (points[:, 0].min() + points[:, 0].max())
