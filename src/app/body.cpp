@@ -188,14 +188,18 @@ void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& s
                               share);
   };
   thickness_ = thickness(kToldShare);
-  const double thin = thickness(kThinShare);
-  if (options_->thin_allowed || thin > scene.grid.cell * (1 + 1e-9)) return;
+  thin_ = thickness(kThinShare);
+  if (!options_->thin_allowed) require_thickness(scene.grid.cell);
+}
+
+void Body::require_thickness(double cell) const {
+  if (thin_ > cell * (1 + 1e-9)) return;
   throw InputError(fmt::format(
       "{}: a fifth of this body's mass or more lies where it is {:.3g} cells thick or less, and "
       "one "
       "cell cannot bend or shear: use grid.cell {:.2g} m or smaller, a thicker body, or say "
       "thin: allowed",
-      options_->where, thin / scene.grid.cell, thin / 3));
+      options_->where, thin_ / cell, thin_ / 3));
 }
 
 void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
@@ -212,6 +216,9 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
   set(field::Id::info, 0, static_cast<double>(id));
   set(field::Mass::info, 0, material_->density * seed.measure);
   const Triple velocity = options_->velocity ? (*options_->velocity)(seed.x, seed.x, 0) : Triple{};
+  if (!std::isfinite(velocity[0] + velocity[1] + velocity[2]))
+    throw InputError(fmt::format("{}.velocity is not finite at ({:.6g}, {:.6g}, {:.6g}) m",
+                                 options_->where, seed.x[0], seed.x[1], seed.x[2]));
   for (int a = 0; a < dim; ++a) {
     const auto i = static_cast<std::size_t>(a);
     set(field::Position::info, a, seed.x[i]);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "krater/materials/catalogue.hpp"
+#include "krater/materials/scalar_eos.hpp"
 
 namespace krater {
 
@@ -160,16 +161,14 @@ void check_fracture_strain(const MaterialOptions& m, std::vector<std::string>& d
 
 double bulk_modulus_at_rest(const MaterialOptions& m) {
   if (!m.eos) return 0;
-  Layout layout{3};
   const MaterialConstants constants{m.density, m.shear_modulus, m.initial_temperature};
-  const std::unique_ptr<Stage> stage{
-      stage_factory_isa_portable()->make(m.eos->law, m.eos->values.data(), constants, layout)};
-  const double c0 = layout.find(field::SoundSpeed::info.name)->initial;
+  const double c0 = make_scalar_eos(m.eos->law, m.eos->values.data(), constants)->c0;
   return m.density * c0 * c0;
 }
 
 std::vector<std::string> examine(const MaterialOptions& material) {
-  std::vector<std::string> doubts;
+  std::vector<std::string> doubts = doubt_magnitudes(material);
+  if (!doubts.empty()) return doubts;  // nothing else can be judged
   check_moduli(material, doubts);
   check_temperatures(material, doubts);
   check_handbook(material, doubts);

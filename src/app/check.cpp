@@ -2,11 +2,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "krater/app/card_doctor.hpp"
 #include "krater/app/command_line.hpp"
 #include "krater/app/field_doubts.hpp"
 #include "krater/app/folder_lock.hpp"
+#include "krater/app/forecast.hpp"
+#include "krater/app/measurements.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/simulation.hpp"
 #include "krater/app/snapshot.hpp"
@@ -18,21 +21,55 @@ namespace krater {
 
 namespace {
 
-// Point-steps per second and core of this code on a 2020s server core, for the estimate of the
-// run's time only.
-constexpr double kRate2d = 12e6, kRate3d = 6e6;
+/// More points are not made to be looked at: a coarser lattice stands for them.
+constexpr double kMostMade = 1e6;
 
 const char* unit_of(Frame frame) { return frame == Frame::plane_strain ? "m^3 (1 m of y)" : "m^3"; }
 
+/// What is looked at: the scene, or where that has too many points the same scene with cells
+/// `coarser` times as long.
+struct Sample {
+  Scene scene;
+  int coarser = 1;
+};
+
+Sample sample_of(const Scene& scene, double points) {
+  Sample out{scene, 1};
+  const int dim = dimension(scene.frame);
+  out.coarser = static_cast<int>(std::ceil(std::pow(points / kMostMade, 1.0 / dim)));
+  if (out.coarser <= 1) return {scene, 1};
+  GridOptions& grid = out.scene.grid;
+  grid.cell *= out.coarser;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+    grid.max[a] =
+        grid.min[a] + grid.cell * std::ceil((grid.max[a] - grid.min[a]) / grid.cell * (1 - 1e-12));
+  // The times and the thickness are judged by the scene's own cell.
+  out.scene.time.first_step = out.scene.time.min_step = 0;
+  for (BodyOptions& body : out.scene.bodies) body.thin_allowed = true;
+  return out;
+}
+
+void print_fill(const Scene& scene, const Body& body, const VolumeMoments& solid) {
+  const VolumeMoments& points = body.seed_moments();
+  const Triple c = solid.centroid(), p = points.centroid();
+  const auto i = solid.inertia(), j = points.inertia();
+  const auto percent = [](double a, double b) { return 100 * (a / b - 1); };
+  fmt::print(
+      "  points - solid: mass {:+.4f} %, centroid ({:+.2g}, {:+.2g}, {:+.2g}) cells, inertia "
+      "xx {:+.3f}, yy {:+.3f}, zz {:+.3f} %\n",
+      percent(points.volume, solid.volume), (p[0] - c[0]) / scene.grid.cell,
+      (p[1] - c[1]) / scene.grid.cell, (p[2] - c[2]) / scene.grid.cell, percent(j[0], i[0]),
+      percent(j[1], i[1]), percent(j[2], i[2]));
+}
+
 /// The body as drawn, in the domain, and what its points make of it.
-void print_shape(const Scene& scene, const Body& body) {
+void print_shape(const Scene& scene, const Body& body, int coarser) {
   bool exact = false;
   const VolumeMoments solid =
       moments_in(*body.options().solid, scene.frame, domain_box(scene), &exact);
-  const VolumeMoments& points = body.seed_moments();
   const double rho = body.material().density;
-  const Triple c = solid.centroid(), p = points.centroid();
-  const auto i = solid.inertia(), j = points.inertia();
+  const Triple c = solid.centroid();
+  const auto i = solid.inertia();
   fmt::print(
       "  solid ({}): volume {:.6g} {}, mass {:.6g} kg, centroid ({:.5g}, {:.5g}, {:.5g}) m\n",
       exact ? "closed form" : "quadrature", solid.volume, unit_of(scene.frame), rho * solid.volume,
@@ -41,32 +78,29 @@ void print_shape(const Scene& scene, const Body& body) {
       "    inertia about it: xx {:.5g}, yy {:.5g}, zz {:.5g}, yz {:.3g}, xz {:.3g}, xy {:.3g} "
       "kg m^2\n",
       rho * i[0], rho * i[1], rho * i[2], rho * i[3] + 0.0, rho * i[4] + 0.0, rho * i[5] + 0.0);
-  const auto percent = [](double a, double b) { return 100 * (a / b - 1); };
-  fmt::print(
-      "  points - solid: mass {:+.4f} %, centroid ({:+.2g}, {:+.2g}, {:+.2g}) cells, inertia "
-      "xx {:+.3f}, yy {:+.3f}, zz {:+.3f} %\n",
-      percent(points.volume, solid.volume), (p[0] - c[0]) / scene.grid.cell,
-      (p[1] - c[1]) / scene.grid.cell, (p[2] - c[2]) / scene.grid.cell, percent(j[0], i[0]),
-      percent(j[1], i[1]), percent(j[2], i[2]));
+  if (coarser == 1) print_fill(scene, body, solid);
   fmt::print(
       "  thickness along the grid's axes: {:.3g} cells in all; a twentieth of the mass lies "
       "where it is below {:.3g} cells\n",
-      body.fill_report().smallest_thickness_in_cells, body.thickness() / scene.grid.cell);
+      coarser * body.fill_report().smallest_thickness_in_cells, body.thickness() / scene.grid.cell);
 }
 
-void print_body(const Simulation& sim, const Body& body, int index) {
+void print_body(const Simulation& sim, const Scene& scene, int index, int coarser) {
+  const Body& body = *sim.bodies()[static_cast<std::size_t>(index)];
   const Totals t = sim.totals(index);
-  fmt::print("body {}: material {}, {:.0f} points, mass {:.6g} kg\n", body.name(),
-             body.material().name, t.count, t.mass);
+  const double points = coarser == 1 ? t.count : body.options().point_estimate;
+  fmt::print("body {}: material {}, {} points, mass {:.6g} kg\n", body.name(), body.material().name,
+             coarser == 1 ? fmt::format("{:.0f}", points) : "about " + count_text(points), t.mass);
   if (const RigidBody* rigid = sim.rigid().find(index))
     fmt::print("  rigid, {}:{}\n", rigid->options().free ? "free" : "prescribed motion",
-               describe_motion(sim.scene().frame, rigid->options()));
-  print_shape(sim.scene(), body);
+               describe_motion(scene.frame, rigid->options()));
+  print_shape(scene, body, coarser);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
   fmt::print("\n  columns ({} bytes per point):", body.layout().stride());
-  for (const Column& c : body.layout().columns())
-    fmt::print(" {}{}", c.field->name, c.components > 1 ? fmt::format("[{}]", c.components) : "");
+  for (const Column& column : body.layout().columns())
+    fmt::print(" {}{}", column.field->name,
+               column.components > 1 ? fmt::format("[{}]", column.components) : "");
   fmt::print("\n");
 }
 
@@ -168,39 +202,69 @@ void print_contact(const Scene& scene) {
   fmt::print("\n");
 }
 
+void print_estimate(const Forecast& cost) {
+  fmt::print(
+      "estimate: {:.0f} steps{}, {} of results, {} of memory, {} on one core ({} to set up, {} to "
+      "write)\n",
+      cost.steps,
+      cost.cut_steps > 0.05 * cost.steps
+          ? fmt::format(" ({:.0f} of them because frames cut them)", cost.cut_steps)
+          : "",
+      bytes_text(cost.results), bytes_text(cost.memory), duration_text(cost.seconds()),
+      duration_text(cost.setup), duration_text(cost.writing));
+}
+
+/// Where cards came from, what of them is not used, and what no source was read for.
+void print_cards(const Scene& scene) {
+  for (const MaterialOptions& m : scene.materials) {
+    if (!m.card.empty()) fmt::print("material {}: card {}\n", m.name, m.card);
+    for (const std::string& key : m.unused)
+      fmt::print("note: {}: its card holds {}, which this scene does not use ({}: card)\n", m.name,
+                 key, key);
+    if (!m.unsourced.empty())
+      fmt::print("note: {}: its card has no source for {}\n", m.name, fmt::join(m.unsourced, ", "));
+  }
+}
+
 }  // namespace
 
 void print_check(const RunOptions& options) {
   set_threads(options.threads);
   const Scene scene = read_scene(options.scene, options.overrides);
   for (const std::string& note : scene.notes) fmt::print("note: {}\n", note);
-  const Simulation sim{scene};
-  fmt::print("{}\nframe {}, cell {:g} m, {} blocks\n",
-             scene.title.empty() ? options.scene : scene.title, name(scene.frame), scene.grid.cell,
-             sim.block_count());
-  double fastest = 0, signal = 0;
+  const Forecast cost = forecast(scene);
+  require_feasible(scene, cost);
+  const Sample sample = sample_of(scene, options.output.empty() ? cost.points : 0);
+  const Simulation sim{sample.scene};
+  // What a run refuses before its first step.
+  Measurements{sim}.check(sim);
+  if (sample.coarser > 1) {
+    require_steps(scene.time, sim.stable_step() / sample.coarser);
+    for (std::size_t b = 0; b < sim.bodies().size(); ++b)
+      if (!scene.bodies[b].thin_allowed) sim.bodies()[b]->require_thickness(scene.grid.cell);
+  }
+  fmt::print("{}\nframe {}, cell {:g} m\n", scene.title.empty() ? options.scene : scene.title,
+             name(scene.frame), scene.grid.cell);
+  if (sample.coarser > 1)
+    fmt::print(
+        "note: {} points are not made to be looked at: bodies are filled with cells {} times as "
+        "long\n",
+        count_text(cost.points), sample.coarser);
+  double fastest = 0;
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
-    print_body(sim, *sim.bodies()[b], static_cast<int>(b));
+    print_body(sim, scene, static_cast<int>(b), sample.coarser);
     const Totals t = sim.totals(static_cast<int>(b));
     fastest = std::max(fastest, t.mass > 0 ? std::sqrt(2 * t.kinetic / t.mass) : 0);
-    signal = std::max(signal, sim.bodies()[b]->initial_sound_speed());
   }
   print_contact(scene);
-  const double steps =
-      scene.time.end * (fastest + 1.35 * signal) / (scene.time.cfl * scene.grid.cell);
-  const double work = steps * static_cast<double>(sim.point_count());
-  fmt::print("estimate: {:.0f} steps, {:.0f} MB, {:.1f} s on one core\n", steps,
-             1e-6 * sim.bytes_per_point() * static_cast<double>(sim.point_count()),
-             work / (dimension(scene.frame) == 3 ? kRate3d : kRate2d));
+  print_estimate(cost);
   if (!options.output.empty()) write_start(sim, options.output);
   print_advice(scene, fastest, closing_speed(sim, fastest));
-  for (const MaterialOptions& m : scene.materials)
-    for (const std::string& key : m.unused)
-      fmt::print("note: {}: its card holds {}, which this scene does not use ({}: card)\n", m.name,
-                 key, key);
+  print_cards(scene);
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
   for (const std::string& doubt : doubt_fields(scene)) fmt::print("doubt: {}\n", doubt);
+  for (const std::string& doubt : doubt_scene(scene)) fmt::print("doubt: {}\n", doubt);
 }
 
 }  // namespace krater

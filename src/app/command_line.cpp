@@ -106,7 +106,7 @@ int command_line(int argc, char** argv) {
   point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");
   point_command->add_flag("--quiet", options.quiet, "no table, no notes");
   CLI::App* models_command =
-      app.add_subcommand("models", "list the material laws, or describe one");
+      app.add_subcommand("models", "list the material laws and cards, or describe one");
   models_command->add_option("name", model, "law");
   if (report_unknown_command(app, argc, argv)) return kBadInput;
   try {

@@ -10,6 +10,8 @@
 
 #include "krater/app/measure_surface.hpp"
 #include "krater/app/pieces.hpp"
+#include "krater/app/snapshot.hpp"
+#include "krater/core/errors.hpp"
 
 namespace krater {
 
@@ -184,6 +186,14 @@ Measurements::Measurements(const Simulation& sim) {
 }
 
 void Measurements::check(const Simulation& sim) const {
+  const std::vector<Quantity> columns = history_row(sim);
+  for (const MeasureOptions& m : sim.scene().measures)
+    for (const Quantity& column : columns)
+      if (m.in_history && column.name == m.name)
+        throw InputError(
+            m.where + ": the history has a column of this name; call the measure " +
+            sim.scene().bodies.at(static_cast<std::size_t>(m.selection.bodies.at(0))).name + "_" +
+            m.name + ", or say history: false");
   Selections selections{sim};
   for (std::size_t i = 0; i < start_.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "krater/app/command_line.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/materials/catalogue.hpp"
+#include "krater/scene/scene.hpp"
 
 namespace krater {
 
@@ -44,15 +47,30 @@ void print_law(const LawInfo& law) {
         "  `damage: card`, or lays its own damage block over the card's\n");
 }
 
+void print_card(const std::string& name) {
+  const CardSummary card = scene::read_card(name);
+  fmt::print("card: {}\n  {}\n", name, card.file);
+  if (!card.unsourced.empty()) fmt::print("  no source for: {}\n", fmt::join(card.unsourced, ", "));
+  fmt::print("{}", card.yaml);
+}
+
 }  // namespace
 
 void print_models(const char* name) {
+  const std::vector<std::string> cards = scene::known_cards();
   if (name == nullptr) {
     for (const LawInfo& law : catalogue())
       fmt::print("{:<10} {:<26} {}\n", law.family, law.name, law.equation);
+    for (const std::string& card : cards) {
+      const std::vector<std::string> unsourced = scene::read_card(card).unsourced;
+      fmt::print(
+          "{:<10} {:<26} {}\n", "card", card,
+          unsourced.empty() ? "" : fmt::format("no source for: {}", fmt::join(unsourced, ", ")));
+    }
     return;
   }
-  bool found = false;
+  bool found = std::find(cards.begin(), cards.end(), name) != cards.end();
+  if (found) print_card(name);
   std::string known;
   for (const LawInfo& law : catalogue()) {
     known += (known.empty() ? "" : ", ") + law.name;
@@ -60,7 +78,9 @@ void print_models(const char* name) {
     print_law(law);
     found = true;
   }
-  if (!found) throw InputError(fmt::format("krater models: no law '{}' (known: {})", name, known));
+  if (!found)
+    throw InputError(fmt::format("krater models: no law '{}' (known: {}; cards: {})", name, known,
+                                 fmt::join(cards, ", ")));
 }
 
 }  // namespace krater

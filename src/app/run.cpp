@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "krater/app/folder_lock.hpp"
+#include "krater/app/forecast.hpp"
 #include "krater/app/machine.hpp"
 #include "krater/app/measurements.hpp"
 #include "krater/app/progress.hpp"
@@ -367,6 +368,7 @@ int run(const RunOptions& options) {
   set_threads(options.threads);
   flush_denormals();
   Scene scene = read_scene(options.scene, options.overrides);
+  require_feasible(scene, forecast(scene));
   return Runner{options, std::move(scene)}.go();
 }
 

@@ -59,6 +59,20 @@ KernelShape kernel_shape(Shape s) {
 
 }  // namespace
 
+void require_steps(const TimeOptions& time, double stable) {
+  const std::string is = fmt::format(
+      " is longer than the stable step of this scene, {:.3g} s (cfl times the cell over wave speed "
+      "and "
+      "twice the greatest speed)",
+      stable);
+  if (time.first_step > stable)
+    throw InputError(fmt::format("{}: first_step, {:.3g} s,{}; leave it out for an automatic one",
+                                 time.where, time.first_step, is));
+  if (time.min_step > stable)
+    throw InputError(fmt::format("{}: min_step, {:.3g} s,{}: the run would fail at once",
+                                 time.where, time.min_step, is));
+}
+
 Simulation::Simulation(const Scene& scene, IsaLevel level)
     : scene_{scene},
       level_{level},
@@ -162,6 +176,7 @@ void Simulation::choose_first_step() {
   max_rate_ = (2 * fastest + signal) * geometry_.inv_h;
   dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step
                                         : kFirstStepShare * scene_.time.cfl / max_rate_;
+  require_steps(scene_.time, scene_.time.cfl / max_rate_);
   first_step_ = dt_free_;
   min_step_ = scene_.time.min_step > 0 ? scene_.time.min_step : kMinStepShare * dt_free_;
 }

@@ -3,6 +3,10 @@
 
 #include <omp.h>
 
+#include <atomic>
+#include <exception>
+#include <mutex>
+
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -35,12 +39,28 @@ namespace detail {
 
 void for_each(std::size_t count, void (*call)(const void*, std::size_t), const void* context) {
   const auto n = static_cast<long>(count);
+  // One error is kept, that of the first item that failed: none may leave the parallel region, and
+  // one of each item would use up what the library holds ready for a lack of memory.
+  std::atomic<long> failed{n};
+  std::exception_ptr error;
+  std::mutex guard;
 #pragma omp parallel num_threads(thread_count) if (thread_count > 1)
   {
     flush_denormals();
 #pragma omp for schedule(dynamic, 1)
-    for (long i = 0; i < n; ++i) call(context, static_cast<std::size_t>(i));
+    for (long i = 0; i < n; ++i) {
+      if (i > failed.load(std::memory_order_relaxed)) continue;
+      try {
+        call(context, static_cast<std::size_t>(i));
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock{guard};
+        if (i >= failed) continue;
+        failed = i;
+        error = std::current_exception();
+      }
+    }
   }
+  if (error) std::rethrow_exception(error);
 }
 
 }  // namespace detail

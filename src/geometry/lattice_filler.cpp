@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "guarded.hpp"
+#include "krater/core/parallel.hpp"
 
 namespace krater {
 namespace {
@@ -52,7 +52,7 @@ std::vector<SeedPoint> Filler::run(FillReport& report) {
 
 void Filler::visit_cells() {
   std::vector<Slab> slabs(static_cast<std::size_t>(cells_.last(0) - cells_.first(0) + 1));
-  for_each_guarded(slabs.size(), [&](std::size_t n) {
+  for_each(slabs.size(), [&](std::size_t n) {
     visit_slab(cells_.first(0) + static_cast<std::int64_t>(n), slabs[n]);
   });
   join(slabs);
@@ -242,7 +242,7 @@ void Filler::keep_fullest(std::vector<std::size_t>& pending, FillReport& report)
 /// The centroid of a cell's part, or of a point with slivers merged, may lie beside the material.
 void Filler::pull_inside() {
   constexpr std::size_t batch = 4096;
-  for_each_guarded((points_.size() + batch - 1) / batch, [&](std::size_t b) {
+  for_each((points_.size() + batch - 1) / batch, [&](std::size_t b) {
     for (std::size_t n = b * batch; n < std::min(points_.size(), (b + 1) * batch); ++n) {
       if (cut_[n] && !solid_.contains(frame_, points_[n].x)) pull_inside(points_[n]);
     }

@@ -9,7 +9,6 @@ namespace krater::scene {
 
 namespace {
 
-constexpr double kMostPoints = 1e9;
 /// Of what a body may lose at the sides of the domain before it is said, and what round-off may
 /// claim.
 constexpr double kLostFraction = 1e-9;
@@ -121,17 +120,86 @@ void check_sides(const BodyOptions& body, Reading& reading) {
   }
 }
 
-/// Estimated number of points of a body in the domain.
-double check_body(const BodyOptions& body, Reading& reading) {
+/// The shape of a body as the user wrote it, without the maps around it.
+const Node& drawn_shape(const BodyOptions& body, const Reading& reading) {
+  const Node* node = reading.root.find("bodies")->find(body.name)->find("shape");
+  const auto is_map = [](const Node& n) {
+    return n.items.size() == 1 &&
+           (n.items[0].key == "move" || n.items[0].key == "rotate" || n.items[0].key == "scale") &&
+           n.items[0].find("shape");
+  };
+  while (is_map(*node)) node = node->items[0].find("shape");
+  return *node;
+}
+
+/// Why a body holds nothing at all, wherever the domain lies.
+std::string why_empty(const BodyOptions& body, const Reading& reading) {
+  const Frame frame = reading.scene.frame;
+  for (const BodyOptions& other : reading.scene.bodies)
+    for (const int loser : other.wins_over)
+      if (&reading.scene.bodies[static_cast<std::size_t>(loser)] == &body)
+        return "nothing is left of it: " + quote(other.name) + " and others win over all of it";
+  const Node& shape = drawn_shape(body, reading);
+  const std::string kind = shape.items.empty() ? shape.text : shape.items[0].key;
+  const Box box = body.solid->bounding_box();
+  const std::string section =
+      frame == Frame::cartesian_3d ? "" : " in the section y = 0 that this frame computes";
+  if (!section.empty() && !is_empty(box, 3) && (box.min[1] > 0 || box.max[1] < 0))
+    return "is empty" + section + ": the shape spans y = " + short_text(box.min[1]) + " to " +
+           short_text(box.max[1]) + " m";
+  if (frame == Frame::axisymmetric && !is_empty(box, 3) && box.max[0] <= 0)
+    return "is empty: the shape lies at r < 0";
+  if (kind == "intersection")
+    return "is empty: the shapes of its intersection do not overlap" + section;
+  if (kind == "difference")
+    return "is empty: the shapes taken away leave nothing of the first" + section;
+  return "is empty: its shape holds no material" + section;
+}
+
+/// "r = 0 to 0.01, z = 0 to 0.02 m"
+std::string span_text(const Box& box, Frame frame) {
+  std::string text;
+  for (int axis = 0; axis < dimension(frame); ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    text += (axis == 0 ? "" : ", ") + std::string{axis_name(frame, axis)} + " = " +
+            short_text(box.min[a]) + " to " + short_text(box.max[a]);
+  }
+  return text + " m";
+}
+
+/// Points that zones add, without their belts.
+double points_of_zones(const BodyOptions& body, const Scene& scene, double per_cell) {
+  const int dim = dimension(scene.frame);
+  double points = 0;
+  for (const RefinedZone& zone : body.points.zones) {
+    const Box box = intersection(zone.box, {scene.grid.min, scene.grid.max}, dim);
+    if (is_empty(box, dim)) continue;
+    double more = 1;
+    for (int a = 0; a < dim; ++a) more *= zone.points_per_direction[static_cast<std::size_t>(a)];
+    points += std::max(0.0, more - per_cell) * body.solid->part(scene.frame, box).section /
+              std::pow(scene.grid.cell, dim);
+  }
+  return points;
+}
+
+void check_body(BodyOptions& body, Reading& reading) {
   const Scene& scene = reading.scene;
   const GridOptions& grid = scene.grid;
   const Box domain{grid.min, grid.max};
   const CellPart part = body.solid->part(scene.frame, domain);
   const CellPart whole = body.solid->part(scene.frame, body.solid->extent(scene.frame));
+  if (!(whole.measure > 0)) {
+    fail("bodies." + body.name, why_empty(body, reading), reading);
+    return;
+  }
   const double least = std::isfinite(whole.measure) ? kLostFraction * whole.measure : 0;
   if (!(part.measure > least)) {
-    fail("bodies." + body.name, "lies outside the domain", reading);
-    return 0;
+    fail("bodies." + body.name,
+         "lies outside the domain: it spans " +
+             span_text(body.solid->extent(scene.frame), scene.frame) + ", grid.box " +
+             span_text(domain, scene.frame),
+         reading);
+    return;
   }
   check_sides(body, reading);
   const double cells = part.section / std::pow(grid.cell, dimension(scene.frame));
@@ -142,7 +210,7 @@ double check_body(const BodyOptions& body, Reading& reading) {
   double per_cell = 1;
   for (int a = 0; a < dimension(scene.frame); ++a)
     per_cell *= body.points.per_direction[static_cast<std::size_t>(a)];
-  return cells * per_cell;
+  body.point_estimate = cells * per_cell + points_of_zones(body, scene, per_cell);
 }
 
 /// Bodies that share material have that mass twice, and push each other apart from the start.
@@ -176,19 +244,14 @@ void check_scene(Reading& reading) {
   check_reference(reading);
   check_contact(reading);
   check_rigid(reading);
-  double points = 0;
   std::vector<bool> used(scene.materials.size(), false);
-  for (const BodyOptions& body : scene.bodies) {
-    points += check_body(body, reading);
+  for (BodyOptions& body : scene.bodies) {
+    check_body(body, reading);
     used[static_cast<std::size_t>(body.material)] = true;
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
       check_overlap(scene.bodies[i], scene.bodies[j], reading);
-  }
-  if (points > kMostPoints) {
-    fail("grid.cell", "about " + short_text(points) + " points, more than 1e9; use a larger cell",
-         reading);
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) scene.notes.push_back(scene.materials[i].where + ": no body is made of it");

@@ -17,6 +17,7 @@ constexpr ParameterInfo kPoisson{"poisson_ratio", "1", Range::any, kRequired, "n
 }  // namespace
 
 ElasticConstants read_elastic_constants(Block& material) {
+  const std::size_t before = material.problems().size();
   const std::optional<double> G = material.optional_number(kShear);
   const std::optional<double> K = material.optional_number(kBulk);
   const std::optional<double> E = material.optional_number(kYoung);
@@ -26,7 +27,10 @@ ElasticConstants read_elastic_constants(Block& material) {
   result.shear = G.value_or(0.0);
   result.bulk = K;
   result.bulk_given = K && given == 1;
-  if (material.problems().any()) return result;
+  // What is wrong with the constants is said once, not again by the laws that miss them.
+  const auto broken = [&] { return material.problems().size() > before; };
+  result.known = false;
+  if (broken()) return result;
   if (nu && !(*nu > -1 && *nu < 0.5)) {
     material.fail("poisson_ratio must lie between -1 and 0.5");
     return result;
@@ -43,6 +47,7 @@ ElasticConstants read_elastic_constants(Block& material) {
         "bulk_modulus)");
     return result;
   }
+  result.known = true;
   if (given < 2) return result;
   if (E && nu) {
     result.shear = *E / (2 * (1 + *nu));
@@ -58,6 +63,7 @@ ElasticConstants read_elastic_constants(Block& material) {
   }
   if (!(result.shear > 0) || !(*result.bulk > 0))
     material.fail("these elastic constants belong to no stable body");
+  result.known = !broken();
   return result;
 }
 

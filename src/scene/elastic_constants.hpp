@@ -14,6 +14,7 @@ struct ElasticConstants {
   std::optional<double> bulk;  ///< K [Pa], where known
   bool bulk_given = false;     ///< by its own key, so that somebody must use it
   bool bulk_used = false;
+  bool known = true;  ///< false: they were given and refused
 };
 
 /// Reads shear_modulus, bulk_modulus, youngs_modulus and poisson_ratio from a material's block.

@@ -18,6 +18,7 @@ int read_material_name(Block& block, Reading& reading) {
   const auto found = std::find(known.begin(), known.end(), *word);
   block.record("material", string_node(*word));
   if (found != known.end()) return static_cast<int>(found - known.begin());
+  if (known.empty()) return -1;  // that there are no materials is said already
   report_unknown(*node, "material", *word, known, reading.problems);
   return -1;
 }
@@ -208,8 +209,8 @@ Node read_bodies(const Node* node, Reading& reading) {
     return resolved;
   }
   for (const Node& item : node->items) {
-    if (check_name(item, reading.problems))
-      add_member(resolved, item.key, read_body(item, reading));
+    check_name(item, reading.problems);
+    add_member(resolved, item.key, read_body(item, reading));
   }
   settle_overlaps(*node, reading);
   return resolved;

@@ -21,6 +21,7 @@ int read_body_name(const Node& node, Reading& reading) {
     known.push_back(reading.scene.bodies[b].name);
     if (known.back() == *name) return static_cast<int>(b);
   }
+  if (known.empty()) return -1;  // said already
   report_unknown(node, "body", *name, known, reading.problems);
   return -1;
 }

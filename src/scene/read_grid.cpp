@@ -140,6 +140,7 @@ Node read_grid(const Node* node, Reading& reading) {
   GridOptions& grid = reading.scene.grid;
   const Frame frame = reading.scene.frame;
   grid.cell = block.number(kCell);
+  grid.where = (block.find("cell") ? *block.find("cell") : block.place()).where();
   const GivenBox box = read_box(block, reading);
   const BoxInfo info{box.min.empty() ? 0.0 : box.min[0], box.revolve, !box.min.empty()};
   const Node boundary = read_boundary(block.find("boundary"), info, block, reading);

@@ -37,6 +37,8 @@ const LawInfo& law_info(const LawChoice& choice) {
 /// not.
 std::optional<double> implied(const ParameterInfo& info, ElasticConstants& constants) {
   const std::string key = info.key;
+  const bool elastic = key == "bulk_modulus" || key == "lame_lambda";
+  if (elastic && !constants.known && std::isnan(info.fallback)) return 1.0;
   if (key == "bulk_modulus" && constants.bulk) constants.bulk_used = true;
   if (key == "bulk_modulus") return constants.bulk;
   if (key == "lame_lambda" && constants.bulk) {
@@ -136,9 +138,7 @@ struct LawReader {
                                          {"none", DegradePressure::none},
                                          {"all", DegradePressure::all}},
                                         options.degrade_pressure);
-      std::erase_if(law.items, [](const Node& item) {
-        return item.key == "coupling" || item.key == "degrade_pressure";
-      });
+      std::erase_if(law.items, [](const Node& item) { return is_damage_setting(item.key); });
       add_member(resolved, "coupling",
                  string_node(options.coupling == Coupling::rate ? "rate" : "effective"));
       const char* const words[] = {"tension", "none", "all"};
@@ -331,16 +331,23 @@ Node read_materials(const Node* node, Reading& reading) {
     return resolved;
   }
   for (const Node& item : node->items) {
-    if (!check_name(item, reading.problems)) continue;
+    // A material that cannot be read still has its name: bodies that use it are not to blame.
+    if (!check_name(item, reading.problems)) {
+      reading.scene.materials.emplace_back().name = item.key;
+      continue;
+    }
     const std::size_t before = reading.problems.size();
     const CardedMaterial carded = with_card(item, reading.scene.file, reading.problems);
     if (reading.problems.size() > before) {
-      // Without its card the block would only seem to lack keys; bodies may still name it.
+      // Without its card the block would only seem to lack keys.
       reading.scene.materials.emplace_back().name = item.key;
       continue;
     }
     add_member(resolved, item.key, read_material(carded.block, reading));
-    reading.scene.materials.back().unused = carded.unused;
+    MaterialOptions& material = reading.scene.materials.back();
+    material.card = carded.file;
+    material.unused = carded.unused;
+    material.unsourced = carded.unsourced;
   }
   return resolved;
 }

@@ -141,6 +141,7 @@ int read_body(const Node& node, Reading& reading) {
   const std::optional<std::string> word = read_word(node, reading.problems);
   if (!word) return -1;
   const auto found = std::find(bodies.begin(), bodies.end(), *word);
+  if (bodies.empty()) return -1;  // said already
   if (found == bodies.end()) {
     report_unknown(node, "body", *word, bodies, reading.problems);
     return -1;
@@ -271,7 +272,10 @@ Node read_measure(const Node& node, Reading& reading) {
   std::vector<std::string> names;
   for (const MeasureKindInfo& kind : measure_kinds()) names.emplace_back(kind.name);
   const std::string kind = required_word(block, "kind", "kind", names, join(names));
-  if (kind.empty()) return {};
+  if (kind.empty()) {
+    reading.scene.measures.push_back(std::move(measure));  // references may name it
+    return {};
+  }
   for (const MeasureKindInfo& known : measure_kinds())
     if (kind == known.name) measure.kind = known.kind;
   if (info(measure.kind).round && reading.scene.frame == Frame::plane_strain)
@@ -298,8 +302,8 @@ Node read_measures(const Node* node, Reading& reading) {
     return resolved;
   }
   for (const Node& item : node->items) {
-    if (check_name(item, reading.problems))
-      add_member(resolved, item.key, read_measure(item, reading));
+    check_name(item, reading.problems);
+    add_member(resolved, item.key, read_measure(item, reading));
   }
   return resolved;
 }

@@ -35,6 +35,7 @@ constexpr ParameterInfo kCheckpoint{"checkpoint", "s", Range::non_negative, 600,
                                     "wall clock between checkpoints, 0: at the end or on a signal"};
 
 constexpr int kHighestXpicOrder = 10;
+constexpr double kMostFrames = 999'999;  ///< six digits of their names
 
 /// A word, or a word with options: `flip`, `{xpic: {order: 4}}`. `read_options` reads what belongs
 /// to the value found.
@@ -96,6 +97,7 @@ Node read_reference(const Node* node, Reading& reading) {
 Node read_time(const Node* node, Reading& reading) {
   TimeOptions& time = reading.scene.time;
   Block block{node, "time", reading.root, reading.problems};
+  time.where = block.place().where();
   time.end = block.number(kEnd);
   time.cfl = block.number(kCfl);
   if (time.cfl > 1)
@@ -170,6 +172,12 @@ Node read_output(const Node* node, Reading& reading) {
   Block block{node, "output", reading.root, reading.problems};
   output.where = block.place().where();
   output.frames = block.number(kFrames);
+  const double most = kMostFrames * output.frames;
+  if (output.frames > 0 && most < reading.scene.time.end)
+    block.fail(*block.find("frames"),
+               "is shorter than a millionth of time.end, and no more than a million frames can be "
+               "written; found " +
+                   quote(block.find("frames")->text));
   output.history = block.number(kHistory);
   output.checkpoint_wall = block.number(kCheckpoint);
   std::vector<Node> written;

@@ -11,6 +11,8 @@ namespace {
 
 using namespace scene;
 
+constexpr std::size_t kLongestTitle = 1000;  // an attribute of every file of results
+
 /// False after a problem.
 bool read_frame(Block& root, Scene& scene) {
   Words<Frame> words;
@@ -71,6 +73,8 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   require_blocks(tree, root);
   if (!tree.find("frame")) problems.throw_if_any();
   scene.title = root.text("title", std::filesystem::path{file}.stem().string());
+  if (scene.title.size() > kLongestTitle)
+    root.fail(*tree.find("title"), "is longer than 1000 characters");
   if (!read_frame(root, scene)) problems.throw_if_any();
   Reading reading{scene, problems, tree};
   read_blocks(root, reading);

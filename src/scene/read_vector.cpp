@@ -73,7 +73,8 @@ std::optional<Components> along_grid_axes(const Components& given, Reading& read
   }
   const std::string section = "must be 0 where the frame is " + std::string{name(frame)};
   if (!given[1].zero()) {
-    refuse(given[1], section, reading.problems);
+    refuse(given[1], section + "; three components are (x, y, z); a decimal comma makes two of one",
+           reading.problems);
     return std::nullopt;
   }
   if (frame == Frame::axisymmetric && !given[0].zero()) {

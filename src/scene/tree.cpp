@@ -13,16 +13,31 @@ namespace krater::scene {
 
 namespace {
 
+constexpr std::array<const char*, 2> kDamageSettings{"coupling", "degrade_pressure"};
+
 /// Maps whose single member is a choice: naming another one replaces the first instead of joining
 /// it.
 bool is_choice(const std::string& key) {
-  static const std::array<const char*, 6> choices{"eos",   "strength", "heating",
-                                                  "shape", "transfer", "path"};
+  static const std::array<const char*, 8> choices{"eos",   "strength", "damage", "heating",
+                                                  "shape", "transfer", "path",   "reference"};
   static const std::array<const char*, 4> axes{"x_", "y_", "z_", "r_"};
   const bool side = key.size() == 5 && std::any_of(axes.begin(), axes.end(), [&](const char* axis) {
                       return key.compare(0, 2, axis) == 0;
                     });
   return side || std::find(choices.begin(), choices.end(), key) != choices.end();
+}
+
+/// `over` chooses another law, shape or scheme than `base`.
+bool chooses_another(const Node& base, const Node& over) {
+  const auto names = [&](const Node& map) {
+    std::vector<std::string> keys;
+    for (const Node& item : map.items)
+      if (map.key != "damage" || !is_damage_setting(item.key)) keys.push_back(item.key);
+    return keys;
+  };
+  if (!is_choice(over.key) || base.items.empty()) return false;
+  const std::vector<std::string> chosen = names(over);
+  return chosen.size() == 1 && !names(base).empty() && base.find(chosen.front()) == nullptr;
 }
 
 void set_path(Node& node, const std::string& path) {
@@ -101,6 +116,10 @@ void write_block(const Node& map, int indent, std::string& out) {
 
 }  // namespace
 
+bool is_damage_setting(std::string_view key) {
+  return std::find(kDamageSettings.begin(), kDamageSettings.end(), key) != kDamageSettings.end();
+}
+
 const Node* Node::find(std::string_view name) const {
   if (kind != Kind::map) return nullptr;
   const auto found =
@@ -129,9 +148,9 @@ std::string Node::kind_name() const {
 }
 
 void overlay(Node& base, const Node& over) {
-  const bool other_choice = is_choice(over.key) && over.items.size() == 1 && !base.items.empty() &&
-                            base.find(over.items[0].key) == nullptr;
-  if (base.kind != Node::Kind::map || over.kind != Node::Kind::map || other_choice) {
+  // The word of the law that is there already changes nothing.
+  if (is_choice(over.key) && over.kind == Node::Kind::scalar && base.find(over.text)) return;
+  if (base.kind != Node::Kind::map || over.kind != Node::Kind::map || chooses_another(base, over)) {
     const std::string path = base.path;
     base = over;
     set_path(base, path);

@@ -37,6 +37,9 @@ Node read_yaml_file(const std::string& file, const std::string& path, Problems& 
 Node parse_yaml(const std::string& text, const std::string& file, const std::string& path,
                 Problems& problems);
 
+/// Is this a member of a `damage` block that stands beside its law?
+bool is_damage_setting(std::string_view key);
+
 /// Lay `over` on `base`: maps are merged member by member, anything else is replaced. A member that
 /// names one law, shape or scheme out of several (`strength: {von_mises: ...}`) replaces one of
 /// another name.

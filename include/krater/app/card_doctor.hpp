@@ -14,6 +14,12 @@ namespace krater {
 /// heat and melting point against metals of that density, a missing limit of tension.
 std::vector<std::string> examine(const MaterialOptions& material);
 
+/// Numbers of a material that are wrong by powers of ten, with the unit that was probably meant.
+std::vector<std::string> doubt_magnitudes(const MaterialOptions& material);
+
+/// The same of a scene's sizes, speeds and times.
+std::vector<std::string> doubt_scene(const Scene& scene);
+
 /// rho0 c0^2 of the material's equation of state [Pa]; 0 without one.
 double bulk_modulus_at_rest(const MaterialOptions& material);
 

@@ -27,6 +27,9 @@ struct Totals {
 /// What a fault means, in words.
 const char* text_of(FaultKind kind);
 
+/// Throws InputError where time.first_step or time.min_step exceed the stable step [s].
+void require_steps(const TimeOptions& time, double stable);
+
 class Simulation {
  public:
   /// The scene must outlive the simulation. Throws InputError.
@@ -42,7 +45,8 @@ class Simulation {
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
   bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
-  const char* limiter() const;             ///< what limits the time step
+  double stable_step() const { return scene_.time.cfl / max_rate_; }  ///< of the next step [s]
+  const char* limiter() const;                                        ///< what limits the time step
   int limiter_kind() const {
     return limiter_kind_;
   }  ///< 0 wave speed, 1 material velocity, 2 volume change

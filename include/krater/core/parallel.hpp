@@ -17,9 +17,10 @@ namespace detail {
 void for_each(std::size_t count, void (*call)(const void*, std::size_t), const void* context);
 }
 
-/// Call work(i) for i in [0, count), dynamically distributed. `work` must not throw. Denormals are
-/// flushed to zero in every thread: the scheme's own tails (weights near the edge of a support)
-/// make them, they cost 100x.
+/// Call work(i) for i in [0, count), dynamically distributed. Where work throws (no memory left),
+/// the error of the first item that failed is thrown again here; items after it may be left out.
+/// Denormals are flushed to zero in every thread: the scheme's own tails (weights near the edge of
+/// a support) make them, they cost 100x.
 template <class Work>
 void for_each(std::size_t count, const Work& work) {
   detail::for_each(

@@ -20,12 +20,14 @@
 namespace krater {
 
 struct GridOptions {
+  std::string where;
   double cell = 0;                                  ///< h [m]
   Triple min{}, max{};                              ///< domain [m]
   std::array<std::array<Boundary, 2>, 3> boundary;  ///< [axis][0 lower, 1 upper]
 };
 
 struct TimeOptions {
+  std::string where;
   double end = 0;  ///< [s]
   double cfl = 0.5;
   double max_step = 0;    ///< [s], 0: none
@@ -51,8 +53,10 @@ struct MaterialOptions {
   FailureAction failure = FailureAction::strength_loss;
   std::optional<double> spall_strength;  ///< tension [Pa]; absent: no limit
   SpallAction spall_action = SpallAction::fail;
-  bool bare = false;                ///< no law: enough for rigid bodies
-  std::vector<std::string> unused;  ///< keys of its card that the scene does not ask for
+  bool bare = false;                   ///< no law: enough for rigid bodies
+  std::string card;                    ///< file of its card, "": none
+  std::vector<std::string> unused;     ///< keys of its card that the scene does not ask for
+  std::vector<std::string> unsourced;  ///< values of its card that came from no source read
 };
 
 /// A vector field given by expressions in x y z r t (and X Y Z R: position at the start), or
@@ -82,6 +86,7 @@ struct BodyOptions {
   std::shared_ptr<const Solid> solid;  ///< without what other bodies win of it
   std::vector<int> wins_over;          ///< bodies that give way where they overlap this one
   bool thin_allowed = false;           ///< may be one cell thick or less
+  double point_estimate = 0;           ///< number of its points, by its volume in the domain
   PointOptions points;
   std::shared_ptr<const FieldFunction> velocity;  ///< at the start, prescribed: at all times;
                                                   ///< null: at rest
@@ -116,5 +121,16 @@ struct Scene {
 /// Read and check a scene. `overrides`: "path=value" strings of --set. Throws InputError
 /// (`FILE:LINE: path: ...`).
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides = {});
+
+/// A material card by itself, and the cards that a scene in the current folder may name.
+struct CardSummary {
+  std::string file, yaml;              ///< yaml: its values as written
+  std::vector<std::string> unsourced;  ///< as of MaterialOptions
+};
+
+namespace scene {
+CardSummary read_card(const std::string& name);  ///< throws InputError
+std::vector<std::string> known_cards();
+}  // namespace scene
 
 }  // namespace krater

@@ -61,6 +61,9 @@ TEST_SUITE("unit") {
       const std::string text = slurp(entry.path().string());
       CHECK(text.find("# Sources:") != std::string::npos);
       const MaterialOptions material = read_card(path_of(name));
+      const bool from_memory =
+          text.find("from memory") != std::string::npos || text.find("verify") != std::string::npos;
+      CHECK(from_memory == !read_card(path_of(name), ", damage: card").unsourced.empty());
       const auto doubts = doubts_of(material);
       if (!doubts.empty()) CAPTURE(doubts.front());
       const auto expected = known.find(name);
@@ -155,8 +158,9 @@ TEST_SUITE("unit") {
     CHECK(std::count(all.begin(), all.end(), kSpall) == 1);
     CHECK(examine(read_card(card, ", spall_strength: 3 GPa")).empty());
     CHECK(examine(read_card(card, ", strength: none, heating: none")).empty());  // a fluid
-    says(", initial_temperature: 20 K, strength: {johnson_cook: {T_ref: 20 K}}",
+    says(", strength: {johnson_cook: {T_ref: 20 K}}, initial_temperature: 60 K",
          "T_ref = 20 K looks like degrees Celsius");
+    says(", initial_temperature: 20 K", "20 degC");
     CHECK(bulk_modulus_at_rest(read_card(card)) == doctest::Approx(7830.0 * 4570.0 * 4570.0));
   }
 }
