@@ -86,6 +86,7 @@ class Runner {
   void write_frame(double time);
   void write_checkpoint();
   void tell_warnings(Progress& progress);
+  void watch_time_step();
   int fail(const std::string& message, Progress& progress);
   Json summary(const std::string& status, double seconds);
   int finish(const std::string& status, const std::string& message, int code,
@@ -99,6 +100,7 @@ class Runner {
   FolderLock lock_;
   int frame_ = 0;
   std::int64_t first_step_ = 0;
+  double foreseen_dt_ = 0;  ///< the first long step [s]; 0 once it was told that it does not hold
 };
 
 void Runner::begin() {
@@ -194,6 +196,19 @@ void Runner::write_checkpoint() {
   results_.write_checkpoint(c);
 }
 
+/// Once, where the time step falls far below what the start let expect: the run will take as many
+/// times longer, and something small and fast is the reason.
+void Runner::watch_time_step() {
+  constexpr double kTold = 20;
+  if (options_.quiet || foreseen_dt_ <= kTold * sim_.dt_free()) return;
+  const double steps = (scene_.time.end - sim_.time()) / sim_.dt_free();
+  say(fmt::format(
+      "krater: note: at {:.4g} s the time step has fallen to {:.3g} s, 1/{:.0f} of what "
+      "the start let expect; the rest takes {:.3g} steps if it stays; {}",
+      sim_.time(), sim_.dt_free(), foreseen_dt_ / sim_.dt_free(), steps, sim_.describe_limit()));
+  foreseen_dt_ = 0;
+}
+
 int Runner::go() {
   begin();
   listen_to_signals();
@@ -202,6 +217,7 @@ int Runner::go() {
   Schedule frames{scene_.output.frames, end, sim_.time()};
   Schedule history{scene_.output.history, end, sim_.time()};
   double last_checkpoint = 0;
+  foreseen_dt_ = sim_.expected_dt();
   try {
     while (!sim_.done()) {
       if (interrupted != 0) {
@@ -229,6 +245,7 @@ int Runner::go() {
         last_checkpoint = progress.seconds();
       }
       progress.show();
+      watch_time_step();
     }
   } catch (const NumericalError& e) {
     return fail(e.what(), progress);
