@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/body.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -23,6 +24,32 @@ bool wants(const Scene& scene, const FieldInfo& field) {
   for (const std::string& name : scene.output.fields)
     if (name == field.name) return true;
   return false;
+}
+
+/// Where the scene may be its own mirror image, across the axes before the last: at a symmetry side
+/// of the domain, else in the middle of all bodies, else (where that is no border between columns
+/// of points) in the middle of the domain.
+std::array<double, 2> mirror_planes(const Scene& scene, const LatticeOptions& lattice) {
+  std::array<double, 2> planes = lattice.mirror;
+  for (int axis = 0; axis + 1 < dimension(scene.frame); ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double low = scene.grid.min[a], high = scene.grid.max[a];
+    double first = high, last = low;
+    for (const BodyOptions& body : scene.bodies) {
+      const Box extent = body.solid->extent(scene.frame);
+      first = std::min(first, std::max(extent.min[a], low));
+      last = std::max(last, std::min(extent.max[a], high));
+    }
+    planes[a] = 0.5 * (first + last);
+    const double column =
+        (planes[a] - lattice.origin[a]) * lattice.points_per_direction[a] / lattice.cell;
+    if (std::abs(column - std::round(column)) > 1e-6) planes[a] = 0.5 * (low + high);
+    const auto& sides = scene.grid.boundary[a];
+    if (sides[1].kind == BoundaryKind::symmetry) planes[a] = high;
+    if (sides[0].kind == BoundaryKind::symmetry || scene.frame == Frame::axisymmetric)
+      planes[a] = low;
+  }
+  return planes;
 }
 
 }  // namespace
@@ -158,6 +185,8 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   lattice.fit_to_body = options_->points.fit_to_body;
   lattice.origin = scene.grid.min;
   lattice.stagger = scene.method.stagger;
+  lattice.mirror = mirror_planes(scene, lattice);
+  lattice.mirror = mirror_planes(scene, lattice);
   lattice.jitter = options_->points.jitter;
   lattice.seed = options_->points.seed;
   std::vector<SeedPoint> out;

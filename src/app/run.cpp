@@ -96,6 +96,7 @@ class Runner {
   void tell_always(const std::string& line);
   void tell_progress(Progress& progress);
   void start_log();
+  void watch_time_step();
   int fail(const std::string& message, Progress& progress);
   Json summary(const std::string& status, double seconds);
   int finish(const std::string& status, const std::string& message, int code,
@@ -110,6 +111,7 @@ class Runner {
   int frame_ = 0;
   std::int64_t first_step_ = 0;
   std::string changed_;  ///< keys of the scene, since the checkpoint
+  double foreseen_dt_ = 0;  ///< the first long step [s]; 0 once it was told that it does not hold
 };
 
 void Runner::begin() {
@@ -202,6 +204,20 @@ void Runner::write_checkpoint() {
   results_.write_checkpoint(c);
 }
 
+/// Once, where the time step falls far below what the start let expect: the run will take as many
+/// times longer, and something small and fast is the reason.
+void Runner::watch_time_step() {
+  constexpr double kTold = 20;
+  if (foreseen_dt_ <= kTold * sim_.dt_free()) return;
+  const double steps = (scene_.time.end - sim_.time()) / sim_.dt_free();
+  sim_.warnings().add(
+      "short_time_step", sim_.time(),
+      fmt::format("the time step fell to {:.3g} s, 1/{:.0f} of what the start let expect; the rest "
+                  "takes {:.3g} steps if it stays; {}",
+                  sim_.dt_free(), foreseen_dt_ / sim_.dt_free(), steps, sim_.describe_limit()));
+  foreseen_dt_ = 0;
+}
+
 int Runner::go() {
   begin();
   listen_to_signals();
@@ -210,6 +226,7 @@ int Runner::go() {
   Schedule frames{scene_.output.frames, end, sim_.time()};
   Schedule history{scene_.output.history, end, sim_.time()};
   double last_checkpoint = 0;
+  foreseen_dt_ = sim_.expected_dt();
   try {
     while (!sim_.done()) {
       if (interrupted != 0) {
@@ -236,6 +253,7 @@ int Runner::go() {
         last_checkpoint = progress.seconds();
       }
       tell_progress(progress);
+      watch_time_step();
     }
   } catch (const NumericalError& e) {
     return fail(e.what(), progress);

@@ -80,7 +80,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       grid_{geometry_},
       boundary_{geometry_, scene.grid.boundary, scene.method.reference != Reference::current},
       contact_{geometry_, scene.grid.boundary, scene.frame == Frame::axisymmetric,
-               scene.method.shape == Shape::linear, scene.contact} {
+               scene.method.shape == Shape::linear, scene.contact},
+      energy_watch_{boundary_} {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     bodies_.push_back(std::make_unique<Body>(scene, static_cast<int>(b), stage_factory(level)));
     kernel_data_.push_back(bodies_.back()->kernel_data());
@@ -106,6 +107,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   Audit& audit = step_->audit();
   audit.kinetic = audit.initial_kinetic = start.kinetic;
   audit.internal = audit.initial_internal = start.internal;
+  audit.peak_energy = audit.energy();
 }
 
 void Simulation::place_rigid_bodies() {
@@ -154,8 +156,7 @@ void Simulation::place_points() {
 
 void Simulation::choose_first_step() {
   double fastest = 0, signal = 0;
-  for (std::size_t n = 0; n < grid_.patches.size(); ++n) {
-    const Patch& p = grid_.patches[n];
+  for (const Patch& p : grid_.patches) {
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
     signal = std::max(signal, body.initial_sound_speed() *
@@ -165,24 +166,26 @@ void Simulation::choose_first_step() {
         const double* record = p.records.data() + static_cast<std::size_t>(i / kLanes) *
                                                       static_cast<std::size_t>(c.stride);
         const double speed = std::abs(record[c.velocity + kLanes * a + i % kLanes]);
-        if (speed > fastest) {
-          fastest = speed;
-          first_limit_ = {static_cast<int>(n), i};
-        }
+        if (speed <= fastest) continue;
+        fastest = speed;
+        limit_.body = p.body;
+        limit_.id = record[i % kLanes];
       }
   }
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
-  max_rate_ = (2 * fastest + signal) * geometry_.inv_h;
+  limit_.rate = (2 * fastest + signal) * geometry_.inv_h;
   dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step
-                                        : kFirstStepShare * scene_.time.cfl / max_rate_;
-  require_steps(scene_.time, scene_.time.cfl / max_rate_);
+                                        : kFirstStepShare * scene_.time.cfl / limit_.rate;
+  require_steps(scene_.time, scene_.time.cfl / limit_.rate);
   first_step_ = dt_free_;
+  expected_dt_ = scene_.time.cfl / limit_.rate;
+  if (scene_.time.max_step > 0) expected_dt_ = std::min(expected_dt_, scene_.time.max_step);
   min_step_ = scene_.time.min_step > 0 ? scene_.time.min_step : kMinStepShare * dt_free_;
 }
 
 const char* Simulation::limiter() const {
-  switch (limiter_kind_) {
+  switch (limit_.kind) {
     case 0:
       return "wave speed";
     case 1:
@@ -193,26 +196,35 @@ const char* Simulation::limiter() const {
 }
 
 std::string Simulation::describe_limit() const {
-  const auto [patch, point] =
-      steps_ > 0 ? std::pair{step_->limiting_patch(),
-                             grid_.patches[static_cast<std::size_t>(step_->limiting_patch())]
-                                 .result.limiting_point}
-                 : first_limit_;
-  const char* field = limiter_kind_ == 0   ? field::SoundSpeed::info.name
-                      : limiter_kind_ == 1 ? field::Velocity::info.name
-                                           : field::Density::info.name;
+  const std::string text = fmt::format("limited by {}", limiter());
+  if (limit_.body < 0) return text;  // at the start, with everything at rest
+  for (int n = 0; n < static_cast<int>(grid_.patches.size()); ++n) {
+    const Patch& p = grid_.patches[static_cast<std::size_t>(n)];
+    if (p.body != limit_.body) continue;
+    const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
+    const int id = body.slot(field::Id::info);
+    for (int i = 0; i < p.count; ++i)
+      if (value(n, i, id) == limit_.id)
+        return fmt::format("{} of {}{}", text, describe_point(n, i), limiting_field(n, i));
+  }
+  return text + " of a point that is gone";
+}
+
+std::string Simulation::limiting_field(int patch, int point) const {
+  const char* field = limit_.kind == 0   ? field::SoundSpeed::info.name
+                      : limit_.kind == 1 ? field::Velocity::info.name
+                                         : field::Density::info.name;
   const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
-  const int last = std::min(point, p.count - 1);
   const Column* column = bodies_[static_cast<std::size_t>(p.body)]->layout().find(field);
-  std::string text = fmt::format("limited by {} of {}", limiter(), describe_point(patch, last));
+  std::string text;
   for (int k = 0; column != nullptr && k < column->components; ++k)
     text += fmt::format("{}{:.6g}", k == 0 ? fmt::format("; field '{}' is ", field) : ", ",
-                        value(patch, last, column->offset / kLanes + k));
+                        value(patch, point, column->offset / kLanes + k));
   return text;
 }
 
 double Simulation::next_step(double until) {
-  const double limit = scene_.time.cfl / max_rate_;
+  const double limit = scene_.time.cfl / limit_.rate;
   double dt = limit;
   if (steps_ > 0)
     dt = std::min(dt, kGrowth * dt_free_);
@@ -243,6 +255,8 @@ void Simulation::step(double until) {
     const std::string text = describe_fault(fault);
     deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
     throw NumericalError(text);
+  } catch (const EnergyError& e) {
+    fail_energy(e);
   } catch (const NumericalError& e) {
     broken_ = true;
     deliver(grid_, kernel_data_);
@@ -253,11 +267,20 @@ void Simulation::step(double until) {
   ++steps_;
   const bool reached = dt_ == asked && asked == until - time_;
   time_ = reached ? until : time_ + dt_;
-  max_rate_ = step_->max_rate();
-  const int p = step_->limiting_patch();
-  if (p >= 0 && p < static_cast<int>(grid_.patches.size()))
-    limiter_kind_ = grid_.patches[static_cast<std::size_t>(p)].result.limiter;
+  limit_ = step_->limit();
   watch(*this, warnings_);
+  try {
+    energy_watch_.check(step_->audit());
+  } catch (const EnergyError& e) {
+    fail_energy(e);
+  }
+}
+
+/// Names the point where the energy is.
+void Simulation::fail_energy(const EnergyError& e) {
+  broken_ = true;
+  throw NumericalError(
+      fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(), time_, steps_));
 }
 
 bool Simulation::walls_act_on_points() const {

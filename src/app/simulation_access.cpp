@@ -52,6 +52,14 @@ void Simulation::set_value(int patch, int point, int slot, double x) {
   p.settled = p.tile_current = p.tile_ahead = false;
 }
 
+void Simulation::book_change() {
+  Audit& audit = step_->audit();
+  const Totals now = totals();
+  audit.external_work += now.kinetic + now.internal - (audit.kinetic + audit.internal);
+  audit.kinetic = now.kinetic;
+  audit.internal = now.internal;
+}
+
 std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {
   const int slot = bodies_[static_cast<std::size_t>(body)]->slot(field::Id::info);
   std::vector<std::pair<double, std::pair<int, int>>> order;
@@ -110,6 +118,25 @@ std::string Simulation::describe_point(int patch, int point) const {
                             value(patch, point, body.slot(field::Position::info, a)));
   return fmt::format("body '{}', point {:.0f} at {}", body.name(),
                      value(patch, point, body.slot(field::Id::info)), position);
+}
+
+/// The point with the greatest energy per mass.
+std::string Simulation::describe_hottest() const {
+  double greatest = -1;
+  std::pair<int, int> where{0, 0};
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
+    const Patch& patch = grid_.patches[p];
+    const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+    for (int i = 0; i < patch.count; ++i) {
+      const int n = static_cast<int>(p);
+      double energy = point_kinetic(patch, i, c, geometry_) / value(n, i, c.mass / kLanes);
+      if (c.energy >= 0) energy += value(n, i, c.energy / kLanes);
+      if (energy > greatest || std::isnan(energy)) greatest = energy, where = {n, i};
+      if (std::isnan(energy)) return describe_point(n, i) + ", which is not finite";
+    }
+  }
+  return fmt::format("most per mass, {:.4g} J/kg, at {}", greatest,
+                     describe_point(where.first, where.second));
 }
 
 std::string Simulation::describe_fault(const StepFault& fault) const {

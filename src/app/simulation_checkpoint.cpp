@@ -77,8 +77,9 @@ void Simulation::save_body(int b, Checkpoint& out) const {
 
 Checkpoint Simulation::save() const {
   Checkpoint out;
-  out.blobs.push_back(numbers("clock", {time_, dt_, dt_free_, min_step_, max_rate_}));
-  out.blobs.push_back(integers("counters", {steps_, limiter_kind_}));
+  out.blobs.push_back(numbers(
+      "clock", {time_, dt_, dt_free_, min_step_, limit_.rate, 1.0 * limit_.body, limit_.id}));
+  out.blobs.push_back(integers("counters", {steps_, limit_.kind}));
   out.blobs.push_back(numbers("grid", grid_identity(scene_.frame, geometry_)));
   static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
   const auto* audit = reinterpret_cast<const double*>(&step_->audit());
@@ -132,9 +133,9 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   time_ = clock.at(0);
   dt_ = clock.at(1);
   dt_free_ = clock.at(2);
-  max_rate_ = clock.at(4);
+  limit_ = {clock.at(4), 0, static_cast<int>(clock.at(5)), clock.at(6)};
   steps_ = demand(checkpoint, "counters").integers.at(0);
-  limiter_kind_ = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
+  limit_.kind = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
   const auto& audit = demand(checkpoint, "audit").doubles;
   if (audit.size() != sizeof(Audit) / sizeof(double))
     throw InputError("checkpoint was written by another version of krater");

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "lattice_filler.hpp"
+#include "light_points.hpp"
 
 namespace krater {
 namespace {
@@ -37,7 +39,8 @@ void shake(std::vector<SeedPoint>& points, const Solid& solid, Frame frame,
     for (std::size_t a = 0; a < dimensions; ++a) {
       x[a] += amplitude[a] * symmetric_random(options.seed * 0x2545f4914f6cdd1dULL + 3 * n + a);
     }
-    const bool on_axis_side = frame != Frame::axisymmetric || x[0] > 0;
+    // Far nearer to the axis V/r would be that of another ring.
+    const bool on_axis_side = frame != Frame::axisymmetric || x[0] > 0.5 * points[n].x[0];
     if (on_axis_side && encloses(domain, x, dimension(frame)) && solid.contains(frame, x)) {
       points[n].x = x;
     }
@@ -90,6 +93,14 @@ std::vector<SeedPoint> fill(const Solid& solid, Frame frame, const LatticeOption
   out = {};
   Filler filler(solid, frame, options, domain);
   std::vector<SeedPoint> points = filler.run(out);
+  if (out.slivers_kept > 0) {  // all other points are half full or more
+    std::vector<double> full;
+    for (const SeedPoint& p : points) full.push_back(fullness(p, frame, options));
+    const std::size_t given = give_light_points(points, std::move(full), solid, frame,
+                                                light_reach * widest_spacing(options, frame));
+    out.slivers_merged += given;
+    out.slivers_kept -= std::min(given, out.slivers_kept);
+  }
   if (options.jitter > 0) shake(points, solid, frame, options, filler.region());
   out.count = points.size();
   if (report) {

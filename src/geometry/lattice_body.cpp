@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "krater/geometry/lattice.hpp"
-#include "lattice_cells.hpp"
+#include "light_points.hpp"
 
 namespace krater {
 namespace {
@@ -78,50 +78,6 @@ void add(FillReport& sum, const FillReport& piece) {
   sum.slivers_kept += piece.slivers_kept;
 }
 
-/// Area or volume of a point, whatever its r.
-double content(const SeedPoint& p, Frame frame) {
-  return frame == Frame::axisymmetric ? p.measure / (2 * std::numbers::pi * p.x[0]) : p.measure;
-}
-
-/// Slivers do not cross the sides of a piece; one that had nowhere to go became a light point. It
-/// is given to the nearest point of any piece, if that is near and not light itself.
-void merge_light_points(std::vector<SeedPoint>& points, const std::vector<std::size_t>& light,
-                        const Solid& solid, Frame frame, double reach) {
-  constexpr double most_distances = 1e9;  // a body that is light all over stays as it is
-  if (static_cast<double>(light.size()) * static_cast<double>(points.size()) > most_distances) {
-    return;
-  }
-  std::vector<bool> gone(points.size(), false);
-  for (const std::size_t n : light) gone[n] = true;
-  for (const std::size_t n : light) {
-    const SeedPoint& giver = points[n];
-    std::size_t nearest = n;
-    double least = reach * reach;
-    for (std::size_t m = 0; m < points.size(); ++m) {
-      const Vector3 d = minus(points[m].x, giver.x);
-      if (gone[m] || !(dot(d, d) < least)) continue;
-      least = dot(d, d);
-      nearest = m;
-    }
-    if (nearest == n) {
-      gone[n] = false;
-      continue;
-    }
-    SeedPoint taker = points[nearest];
-    const double area = content(taker, frame) + content(giver, frame);
-    const double total = taker.measure + giver.measure;
-    taker.x = plus(taker.x, giver.measure / total, minus(giver.x, taker.x));
-    if (frame == Frame::axisymmetric) taker.x[0] = total / (2 * std::numbers::pi * area);
-    if (solid.contains(frame, taker.x)) points[nearest].x = taker.x;
-    points[nearest].measure = total;
-  }
-  std::size_t kept = 0;
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    if (!gone[n]) points[kept++] = points[n];
-  }
-  points.resize(kept);
-}
-
 std::vector<SeedPoint> fill_zones(const Solid& solid, Frame frame, const LatticeOptions& options,
                                   const std::vector<RefinedZone>& zones, const Box& domain,
                                   FillReport& report) {
@@ -132,27 +88,22 @@ std::vector<SeedPoint> fill_zones(const Solid& solid, Frame frame, const Lattice
       pieces = refined(pieces, belt, dimensions);
     }
   }
-  constexpr double light_share = 0.25;
   std::vector<SeedPoint> points;
-  std::vector<std::size_t> light;
+  std::vector<double> full;
   double widest = 0;
   for (const Piece& piece : pieces) {
     LatticeOptions local = options;
     local.points_per_direction = piece.points;
     FillReport part;
-    const std::vector<SeedPoint> some = fill(solid, frame, local, piece.box, &part);
-    double whole = 1;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions); ++k) {
-      whole *= options.cell / piece.points[k];
-      widest = std::max(widest, options.cell / piece.points[k]);
-    }
-    for (const SeedPoint& p : some) {
-      if (content(p, frame) < light_share * whole) light.push_back(points.size());
+    for (const SeedPoint& p : fill(solid, frame, local, piece.box, &part)) {
       points.push_back(p);
+      full.push_back(fullness(p, frame, local));
     }
+    widest = std::max(widest, widest_spacing(local, frame));
     add(report, part);
   }
-  merge_light_points(points, light, solid, frame, 2 * widest);
+  // Slivers do not cross the sides of a piece; one that had nowhere to go became a light point.
+  give_light_points(points, std::move(full), solid, frame, light_reach * widest);
   report.count = points.size();
   report.measure_exact = solid.measure(frame, domain);
   report.smallest_thickness_in_cells = solid.smallest_thickness(frame, domain) / options.cell;

@@ -36,6 +36,7 @@ class LatticeCells {
         stagger_(options.stagger),
         spacing_(lattice_spacing(options)),
         origin_(options.origin) {
+    for (int axis = 0; axis + 1 < dimensions_; ++axis) set_plane(axis, options.mirror);
     if (is_empty(region, dimensions_)) return;
     for (int axis = 0; axis < dimensions_; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
@@ -75,7 +76,9 @@ class LatticeCells {
   }
 
   /// Is the column of this cell shifted by half a spacing along its own axis?
-  bool shifted(const CellIndex& c) const { return stagger_ && ((c.i + c.j) & 1) != 0; }
+  bool shifted(const CellIndex& c) const {
+    return stagger_ && ((outward(c.i, plane_[0]) + outward(c.j, plane_[1])) & 1) != 0;
+  }
 
   /// Area (2D) or volume (3D) of a whole cell.
   double content() const {
@@ -111,6 +114,18 @@ class LatticeCells {
   }
 
  private:
+  void set_plane(int axis, const std::array<double, 2>& mirror) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double column = (mirror[a] - origin_[a]) / spacing_[a];
+    if (!(std::abs(column - std::round(column)) < 1e-6) || !(std::abs(column) < 1e9)) return;
+    plane_[a] = static_cast<std::int64_t>(std::round(column));
+  }
+
+  /// Number of a column counted from the plane below column `plane`, the same to both sides.
+  static std::int64_t outward(std::int64_t i, std::int64_t plane) {
+    return i >= plane ? i - plane : plane - 1 - i;
+  }
+
   std::int64_t span(int n) const { return last(n) - first(n) + 1; }
 
   void set(Box& cell, std::size_t axis, double index) const {
@@ -124,6 +139,8 @@ class LatticeCells {
   std::array<double, 3> origin_;
   std::array<std::int64_t, 3> first_{};
   std::array<std::int64_t, 3> last_{};
+  /// Counted from here. Without a plane of symmetry: an even number below all columns.
+  std::array<std::int64_t, 2> plane_{-(std::int64_t{1} << 40), -(std::int64_t{1} << 40)};
 };
 
 }  // namespace krater

@@ -13,6 +13,9 @@ namespace {
 // A step is halved when the change of velocity alone would move material by more than this share of
 // a cell.
 constexpr double kMaxShare = 0.3;
+// usf strains the points before the step's own forces are known: those of the last stress leave a
+// factor 2 for what one step may add.
+constexpr double kMaxShareAhead = 0.5 * kMaxShare;
 
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
@@ -41,7 +44,11 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
       plain_{plain},
       bodies_{bodies},
       velocity_from_kept_{bodies},
-      position_as_velocity_{bodies} {
+      position_as_velocity_{bodies},
+      energy_watch_{boundary},
+      loaded_{std::any_of(bodies.begin(), bodies.end(), [](const BodyKernelData& b) {
+        return b.columns.body_acceleration >= 0;
+      })} {
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
   for (BodyKernelData& body : position_as_velocity_) {
@@ -79,6 +86,13 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
   return out;
 }
 
+// Not where body forces act: their work on the points is known after the gather only.
+void MpmStep::watch_energy(const GridEnergy& grid, const Constraints& c) const {
+  if (loaded_) return;
+  energy_watch_.check_nodes(audit_, grid.after + c.work(),
+                            {audit_.step_external + c.contact.driven, c.walls.work});
+}
+
 void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
   audit_.book_step(energies, {c.walls.work, c.walls.force_correction},
                    {c.contact.work, c.contact.force_correction});
@@ -94,13 +108,14 @@ double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
+  GridEnergy grid = momentum(dt, 1, kMaxShare);
   begin_rigid(dt, grid);
   Constraints constraints = constrain();
   if (method_.transfer == Transfer::xpic) {
     const std::array<double, 3> impulse = filter_velocity();
     for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
   }
+  watch_energy(grid, constraints);
   grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
                     dt);
   book({kinetic, internal, grid.before, grid.after}, constraints);
@@ -110,9 +125,10 @@ double MpmStep::step_usl(double dt) {
 double MpmStep::step_musl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
+  GridEnergy grid = momentum(dt, 1, kMaxShare);
   begin_rigid(dt, grid);
   const Constraints constraints = constrain();
+  watch_energy(grid, constraints);
   grid_to_particles(GatherPart::velocity_only, dt);
 
   // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
@@ -134,9 +150,10 @@ double MpmStep::step_musl(double dt) {
 double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
+  momentum(dt, 1, kMaxShareAhead);  // settles the length of the step for strain and motion alike
   GridEnergy grid = momentum(dt, 0);
   begin_rigid(dt, grid);
-  constrain(true);
+  watch_energy(grid, constrain(true));
   grid_to_particles(GatherPart::strain_only, dt);
   audit_.step_external = 0;
   rigid_.rewind();
@@ -145,6 +162,7 @@ double MpmStep::step_usf(double dt) {
   grid = momentum(dt, 1);
   begin_rigid(dt, grid);
   const Constraints constraints = constrain();
+  watch_energy(grid, constraints);
   grid_to_particles(GatherPart::velocity_move, dt);
   book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
@@ -203,7 +221,7 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   throw_faults();
 }
 
-MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
+MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share, double most_cells) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
   for_each(grid_.node_blocks.size(), [&](std::size_t n) {
@@ -219,8 +237,8 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   double max_change = 0;
   for (const NodeBlock& block : grid_.node_blocks)
     max_change = std::max(max_change, block.sums.max_change);
-  if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
-    halve_until_safe(dt, max_change);
+  if (force_share > 0 && max_change * dt > most_cells * grid_.geometry().h)
+    halve_until_safe(dt, max_change, most_cells);
   lap(Phase::boundary);
   GridEnergy energy{rigid_.kinetic(), rigid_.kinetic()};
   for (const NodeBlock& block : grid_.node_blocks) {
@@ -231,9 +249,9 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   return energy;
 }
 
-void MpmStep::halve_until_safe(double& dt, double max_change) {
+void MpmStep::halve_until_safe(double& dt, double max_change, double most_cells) {
   double share = 1;
-  while (share * max_change * share * dt > kMaxShare * grid_.geometry().h) share *= 0.5;
+  while (share * max_change * share * dt > most_cells * grid_.geometry().h) share *= 0.5;
   dt *= share;
   audit_.retries += 1;
   for (NodeBlock& block : grid_.node_blocks) {
@@ -291,17 +309,15 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
 
 void MpmStep::combine_patches(bool forces_worked) {
   audit_.kinetic = audit_.internal = 0;
-  max_rate_ = 0;
+  limit_ = {};
   for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
     const PatchResult& r = grid_.patches[p].result;
     audit_.kinetic += r.kinetic;
     audit_.internal += r.internal;
     if (forces_worked) audit_.step_external += r.external_work;
     audit_.book_events(r.ledger);
-    if (r.max_rate > max_rate_) {
-      max_rate_ = r.max_rate;
-      limiting_patch_ = static_cast<int>(p);
-    }
+    if (r.max_rate > limit_.rate)
+      limit_ = {r.max_rate, r.limiter, grid_.patches[p].body, 1.0 * r.limiting_point};
   }
 }
 

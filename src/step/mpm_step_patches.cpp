@@ -28,10 +28,7 @@ std::uint64_t hash_of(const double* data, std::size_t count) {
 // of its points, it would change none in any later step either, and is passed over, its tile with
 // it, until a node around it moves. The hash is paid only in that one gather.
 bool MpmStep::may_sleep(GatherPart part) const {
-  const bool loaded = std::any_of(bodies_.begin(), bodies_.end(), [](const BodyKernelData& b) {
-    return b.columns.body_acceleration >= 0;
-  });
-  return method_.dormant_blocks && part == GatherPart::all && !loaded && !boundary_.drives();
+  return method_.dormant_blocks && part == GatherPart::all && !loaded_ && !boundary_.drives();
 }
 
 bool MpmStep::asleep(const NodeBlock& block) const {
@@ -41,6 +38,15 @@ bool MpmStep::asleep(const NodeBlock& block) const {
     if (!grid_.patches[static_cast<std::size_t>(p)].tile_current) return false;
   }
   return true;
+}
+
+// Points may leave the patch or change places in it. Their ids lie at the head of every record
+// (app/body.cpp declares them first).
+void MpmStep::name_limit(Patch& patch) const {
+  if (!(patch.result.max_rate > 0)) return;
+  const int stride = bodies_[static_cast<unsigned>(patch.body)].columns.stride;
+  patch.result.limiting_point =
+      static_cast<int>(component(patch, stride, 0, patch.result.limiting_point));
 }
 
 void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
@@ -63,6 +69,7 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
   const std::uint64_t before = still ? hash_of(patch.records.data(), size) : 0;
   if (part != GatherPart::velocity_move) patch.result.max_rate = patch.result.stretch = 0;
   kernels_.gather(patch, grid_, body, s, w, part);
+  if (part != GatherPart::velocity_move) name_limit(patch);
   patch.settled = still && hash_of(patch.records.data(), size) == before;
 }
 
@@ -72,9 +79,7 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
 // done twice: a patch whose points changed in the last step is left to the next sweep.
 bool MpmStep::may_scatter_ahead(GatherPart part) const {
   return part == GatherPart::all && method_.update == Update::usl &&
-         method_.reference == Reference::current &&
-         std::none_of(bodies_.begin(), bodies_.end(),
-                      [](const BodyKernelData& b) { return b.columns.body_acceleration >= 0; });
+         method_.reference == Reference::current && !loaded_;
 }
 
 void MpmStep::scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w) {

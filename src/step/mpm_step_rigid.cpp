@@ -20,6 +20,7 @@ void MpmStep::move_rigid(std::size_t p, const SweepScratch& w) {
   patch.tile_current = !rigid_.find(patch.body)->moves();
   if (patch.tile_current) return;
   rigid_.move(p, patch, grid_.geometry(), boundary_, columns, w.leavers);
+  name_limit(patch);
   removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, columns, w.leavers);
 }
 

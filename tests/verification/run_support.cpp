@@ -81,6 +81,7 @@ void set_column(Run& run, const FieldInfo& field, int component, const std::vect
   std::size_t i = 0;
   for (const auto& [patch, point] : run.sim->points_by_id(body))
     run.sim->set_value(patch, point, slot, values.at(i++));
+  run.sim->book_change();
 }
 
 std::vector<std::uint64_t> all_bits(const Simulation& sim) {

@@ -40,15 +40,19 @@ class Simulation {
   const Scene& scene() const { return scene_; }
   double time() const { return time_; }
   std::int64_t steps() const { return steps_; }
-  double dt() const { return dt_; }  ///< of the last step [s]
+  double dt() const { return dt_; }            ///< of the last step [s]
+  double dt_free() const { return dt_free_; }  ///< the same before it was cut to an output time [s]
+  /// What the greatest speeds of the start allow; the first steps grow towards it [s].
+  double expected_dt() const { return expected_dt_; }
   bool done() const { return time_ >= scene_.time.end; }
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
   bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
-  double stable_step() const { return scene_.time.cfl / max_rate_; }  ///< of the next step [s]
-  const char* limiter() const;                                        ///< what limits the time step
+  double stable_step() const { return scene_.time.cfl / limit_.rate; }  ///< of the next step [s]
+  const char* limiter() const;             ///< what limits the time step
+  std::string describe_limit() const;      ///< the same with the point and what it has
   int limiter_kind() const {
-    return limiter_kind_;
+    return limit_.kind;
   }  ///< 0 wave speed, 1 material velocity, 2 volume change
 
   IsaLevel isa_level() const { return level_; }
@@ -77,6 +81,8 @@ class Simulation {
                 static_cast<std::size_t>(kLanes * slot + point % kLanes)];
   }
   void set_value(int patch, int point, int slot, double x);
+  /// After set_value: what it changed of the energy is work from outside.
+  void book_change();
 
   Checkpoint save() const;
   void restore(
@@ -93,7 +99,9 @@ class Simulation {
   bool walls_act_on_points() const;
   std::array<double, 3> apply_point_walls(double dt);  ///< force on the points [N]
   double next_step(double until);
-  std::string describe_limit() const;
+  std::string limiting_field(int patch, int point) const;
+  std::string describe_hottest() const;
+  [[noreturn]] void fail_energy(const EnergyError& e);
   std::string describe_fault(const StepFault& fault) const;
   std::string describe_point(int patch, int point) const;
 
@@ -106,14 +114,13 @@ class Simulation {
   BoundarySet boundary_;
   ContactSet contact_;
   RigidBodies rigid_;
+  EnergyWatch energy_watch_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   std::unique_ptr<MpmStep> step_;
   double time_ = 0, dt_ = 0, dt_free_ = 0,
-         min_step_ = 0;                    ///< dt_free_: before clipping to output times
-  double first_step_ = 0;                  ///< [s]
-  std::pair<int, int> first_limit_{0, 0};  ///< patch and point that limit the first step
-  double max_rate_ = 0;
-  int limiter_kind_ = 0;
+         min_step_ = 0;                      ///< dt_free_: before clipping to output times
+  double first_step_ = 0, expected_dt_ = 0;  ///< [s]
+  TimeStepLimit limit_;                      ///< of the next step
   bool broken_ = false;
   Warnings warnings_;
   std::int64_t steps_ = 0;

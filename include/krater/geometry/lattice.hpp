@@ -6,7 +6,10 @@
 // Stagger: the columns along the last axis (z) whose index is odd (2D: i; 3D: i + j; counted from
 // the grid's origin, so that the lattices of all bodies match) are shifted by +s/2 along z. A shock
 // front along z then meets no regular rows: a plateau's noise fell from 2.5 to 0.65 %
-// in a plane prototype.
+// in a plane prototype. A mirror turns odd columns into even ones, so where a scene has a plane of
+// symmetry they are counted outward from it (`LatticeOptions::mirror`): the lattice is then its own
+// image, at the price of two like columns side by side there, and a quarter of a model has the
+// points of the whole.
 //
 // Where a seed lies. Its z (and x, y) is the centroid weighted with the measure: the solid's mass
 // centre is exact. Its r, in the axisymmetric frame, is the centroid of the *area*, which by Pappus
@@ -25,6 +28,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "krater/geometry/box.hpp"
@@ -40,8 +44,13 @@ struct LatticeOptions {
   std::array<double, 3> spacing{};                   ///< m; where 0: cell / points_per_direction
   bool fit_to_body = false;  ///< see `fill_body`: lattice along the body's own axes instead
   bool stagger = true;       ///< shift odd columns by half a spacing along z
-  double jitter = 0;         ///< greatest random shift per axis, in spacings; measures stay
-  std::uint64_t seed = 0;    ///< of the jitter
+  /// Planes across the axes before the last from which columns are counted outward, m; NaN, or one
+  /// that is no multiple of the spacing from the origin: counted from the origin. (About the middle
+  /// of a column a lattice is its own image anyway.)
+  std::array<double, 2> mirror{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
+  double jitter = 0;       ///< greatest random shift per axis, in spacings; measures stay
+  std::uint64_t seed = 0;  ///< of the jitter
 };
 
 /// More points inside a box: `points_per_direction` there, one less per axis for every `falloff`
@@ -83,7 +92,8 @@ struct FillReport {
 /// largest product of shared fraction of the face and own content; near-equals (within 30 %) share
 /// equally, which keeps symmetric bodies symmetric and masses even. Failing that, cells touching at
 /// an edge or corner; failing that, the fullest slivers are kept themselves. Exactly half full
-/// counts as kept: it is what staggering leaves at a body's end.
+/// counts as kept: it is what staggering leaves at a body's end. Points that are still far lighter
+/// than the body's others, as at a tip, go to the nearest heavier one (src/geometry/light_points).
 ///
 /// Throws std::invalid_argument if the solid has no meaning in the frame, or for options that make
 /// no lattice.
@@ -91,7 +101,7 @@ std::vector<SeedPoint> fill(const Solid& solid, Frame frame, const LatticeOption
                             const Box& domain, FillReport* report = nullptr);
 
 /// As `fill`, with zones of more points, each piece of constant spacing filled for itself (slivers
-/// do not cross its sides; points left lighter than a quarter go to the nearest point), and with
+/// do not cross its sides; points left light go to the nearest heavier one of any), and with
 /// `fit_to_body`: the lattice then begins at a corner of the body's bounding box and its spacings
 /// divide the edges of that evenly; in 3d it runs along the body's own axes before it was turned (a
 /// body turned as a whole and not stretched), for which the domain must hold all of the body. Zones

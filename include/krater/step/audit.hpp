@@ -41,6 +41,7 @@ struct Audit {
   double contact_pairs = 0;  ///< pairs of fields at nodes that pushed in the last step
   double wall_columns = 0;   ///< columns in contact in the last step
   double step_external = 0;  ///< work of body forces in the step under way [J]
+  double peak_energy = 0;    ///< greatest kinetic + internal + removed energy so far [J]
 
   /// Energies at the start of a step: points' kinetic and internal, grid's kinetic before and after
   /// the forces [J].
@@ -58,6 +59,7 @@ struct Audit {
   /// Walls that acted as body forces on points (fixed reference) during dt; `alone`: no other body
   /// force did, so that their work can be told apart.
   void book_point_walls(const std::array<double, 3>& force, double dt, bool alone);
+  double energy() const { return kinetic + internal + removed_energy; }  ///< what there is [J]
   /// Energy and momentum that left with removed points.
   void book_removed(const Removed& gone);
 

@@ -7,6 +7,7 @@
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
 /// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
 /// (Hammerquist & Nairn 2017) before the gather.
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "krater/step/audit.hpp"
 #include "krater/step/boundary.hpp"
 #include "krater/step/contact.hpp"
+#include "krater/step/energy_watch.hpp"
 #include "krater/step/kernels.hpp"
 #include "krater/step/migrate.hpp"
 #include "krater/step/reference.hpp"
@@ -25,6 +27,14 @@ namespace krater {
 enum class Phase : std::size_t { scatter, nodes, contact, boundary, gather, migrate };
 inline constexpr std::array<const char*, 6> phase_names{
     "scatter", "nodes", "contact", "boundary", "gather_and_stress", "migrate"};
+
+/// What limits the time step. By the point's id: patches are sorted anew when points migrate.
+struct TimeStepLimit {
+  double rate = 0;  ///< 1/dt at CFL 1 [1/s]
+  int kind = 0;     ///< 0 wave speed, 1 material velocity, 2 volume change
+  int body = -1;
+  double id = -1;
+};
 
 /// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
 struct StepFault {
@@ -44,15 +54,14 @@ class MpmStep {
 
   /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
   /// move material by more than 0.3 cells (checked on the nodes, before a point is touched).
-  /// Returns the step taken. Throws StepFault.
+  /// Returns the step taken. Throws StepFault, EnergyError.
   double advance(double dt);
 
   /// Wall-clock seconds spent in a phase since construction.
   double seconds(Phase phase) const { return watch_.seconds(static_cast<std::size_t>(phase)); }
   Audit& audit() { return audit_; }
   const Audit& audit() const { return audit_; }
-  double max_rate() const { return max_rate_; }  ///< 1/dt at CFL 1 found by the last step [1/s]
-  int limiting_patch() const { return limiting_patch_; }
+  const TimeStepLimit& limit() const { return limit_; }  ///< found by the last step
   /// Call after points were added or read from a checkpoint: links, memory, padding.
   void relink();
   /// Smallest mass of a point, once for all [kg].
@@ -66,7 +75,9 @@ class MpmStep {
   };
   void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                          double dt);
-  GridEnergy momentum(double& dt, double force_share);
+  /// `most_cells`: dt is halved while dv alone would move a node that holds material by more.
+  GridEnergy momentum(double& dt, double force_share,
+                      double most_cells = std::numeric_limits<double>::infinity());
   struct Constraints {
     BoundaryWork walls;
     ContactWork contact;
@@ -78,7 +89,9 @@ class MpmStep {
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
   void book(const Audit::StepEnergies& energies, const Constraints& constraints);
-  void halve_until_safe(double& dt, double max_change);
+  void halve_until_safe(double& dt, double max_change, double most_cells);
+  void watch_energy(const GridEnergy& grid, const Constraints& c) const;
+  void name_limit(Patch& patch) const;
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
   bool may_scatter_ahead(GatherPart part) const;
@@ -112,11 +125,12 @@ class MpmStep {
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
 
   Audit audit_;
+  EnergyWatch energy_watch_;
+  bool loaded_;  ///< body forces act
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;
   std::vector<std::size_t> boundary_blocks_;
-  double max_rate_ = 0;
-  int limiting_patch_ = -1;
+  TimeStepLimit limit_;
   AlignedBuffer zeros_, filtered_;
   std::vector<Removed> removed_;
   struct ThreadMemory {

@@ -8,6 +8,7 @@
 
 #include "krater/materials/eos/jwl.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
+#include "krater/materials/eos/mie_gruneisen_shock.hpp"
 #include "krater/materials/eos/stiffened_gas.hpp"
 #include "krater/materials/eos/tillotson.hpp"
 #include "krater/materials/eos_stage.hpp"
@@ -204,7 +205,8 @@ TEST_SUITE("unit") {
     const Tillotson law = iron();
     const auto condensed = [&](double x, double e) {
       const double mu = x - 1.0, E = 7860.0 * x * e;
-      return 0.5 * E + 1.5 * E / (e / (9.5e6 * x * x) + 1.0) + 128e9 * mu + 105e9 * mu * mu;
+      return 0.5 * E + 1.5 * E / (e / (9.5e6 * x * x) + 1.0) +
+             cohesion(x).share * (128e9 * mu + 105e9 * mu * mu);
     };
     const auto expanded = [&](double x, double e) {
       const double E = 7860.0 * x * e, z = 1.0 / x - 1.0;
@@ -229,9 +231,10 @@ TEST_SUITE("unit") {
     CHECK(pressure(law, 1.0, 5e7) == doctest::Approx(0.5 * 5e7).epsilon(1e-12));
     CHECK(pressure(law, 7860.0 * 0.9, -1e5) ==
           doctest::Approx(condensed(0.9, -1e5)).epsilon(1e-12));
-    CHECK(pressure(law, 7860.0 * 0.1, -0.0999e6) <  // E0 x^2 = 0.095e6
-          pressure(law, 7860.0 * 0.1, -0.03e6));
-    CHECK(std::isfinite(pressure(law, 7860.0 * 0.1, -9.5e4)));
+    CHECK(pressure(law, 7860.0 * 0.6, -3.5e6) <  // E0 x^2 = 3.42e6
+          pressure(law, 7860.0 * 0.6, -1e6));
+    CHECK(std::isfinite(pressure(law, 7860.0 * 0.6, -3.42e6)));
+    CHECK(pressure(law, 7860.0 * 0.1, -9.5e4) == 0.0);
     CHECK(law.c0 == doctest::Approx(std::sqrt(128e9 / 7860.0)));
   }
 
@@ -244,6 +247,64 @@ TEST_SUITE("unit") {
     check_second_order(tnt(), 0.3);
     check_second_order(iron(), 1.5);
     check_second_order(iron(), 0.95);
+  }
+
+  TEST_CASE("Tillotson: a thin gas pushes, about a rho e, also between E_iv and E_cv") {
+    const double values[] = {0.5, 1.63, 75e9, 65e9, 5e6, 3e6, 15e6, 5.0, 5.0};
+    const auto law = make_law<Tillotson>(values, {2700.0, 0.0, 294.0});
+    for (double x = 1e-6; x <= 1.001e-2; x *= 10) {
+      for (const double e : {3.1e6, 5e6, 11.3e6, 14.9e6, 15.1e6, 30e6}) {
+        const double gas = 0.5 * 2700.0 * x * e;
+        CHECK(pressure(law, 2700.0 * x, e) >= 0.0);
+        CHECK(pressure(law, 2700.0 * x, e) <= 2.0 * gas);
+        CHECK(law.tangent(2700.0 * x, 1.0 / (2700.0 * x), e).thermal <= 2.0 * 0.5 * 2700.0 * x);
+      }
+    }
+    // Where the solid has parted no state pulls, whatever its energy.
+    for (const double x : {1e-4, 0.1, 0.3, 0.5})
+      for (const double e : {-1e6, -1.0, 0.0, 1e5, 2.9e6})
+        CHECK(pressure(law, 2700.0 * x, e) >= 0.0);
+  }
+
+  TEST_CASE("cold tension: whole to 0.8 of the density, none from 0.5, without a step") {
+    const double shock[] = {5350.0, 1.34, 2.0}, polynomial[] = {76e9, 128e9, 125e9, 2.0};
+    const auto one = make_law<MieGruneisenShock>(shock, {2700.0, 0.0, 294.0});
+    const auto other = make_law<MieGruneisenPolynomial>(polynomial, {2700.0, 0.0, 294.0});
+    const auto check = [](const auto& law, const auto& published) {
+      for (const double x : {0.8, 0.9, 0.99})
+        CHECK(pressure(law, 2700.0 * x, 0.0) == doctest::Approx(published(x - 1.0)).epsilon(1e-13));
+      for (const double x : {1e-6, 0.01, 0.5}) {
+        CHECK(pressure(law, 2700.0 * x, 0.0) == 0.0);
+        CHECK(pressure(law, 2700.0 * x, 5e6) == doctest::Approx(2.0 * 2700.0 * x * 5e6));
+      }
+      for (double x = 0.45; x < 0.85; x += 1e-3)
+        CHECK(std::abs(pressure(law, 2700.0 * (x + 1e-6), 0.0) - pressure(law, 2700.0 * x, 0.0)) <
+              1e-6 * 1e12);
+    };
+    check(one, [](double mu) { return 2700.0 * 5350.0 * 5350.0 * mu; });
+    check(other, [](double mu) { return (1.0 - mu) * 76e9 * mu; });
+  }
+
+  TEST_CASE("eos: finite at any density and energy, and c^2 after its floor") {
+    const auto check = [](const auto& law, bool gas = true) {
+      for (const double x : {1e-9, 1e-4, 0.1, 0.5, 0.6, 0.8, 1.0, 1.3, 3.0, 10.0, 100.0}) {
+        for (const double e : {-1e7, -1e3, 0.0, 1e5, 1e7, 1e9}) {
+          const double rho = x * law.rho0, v = 1.0 / rho, p = pressure(law, rho, e);
+          CHECK(std::isfinite(p));
+          CHECK(std::isfinite(law.bulk_modulus(rho, v, p, e)));
+        }
+      }
+      if (!gas) return;  // hot and thin: sound without the floor
+      const double rho = 1e-3 * law.rho0, p = pressure(law, rho, 1e8);
+      CHECK(law.bulk_modulus(rho, 1.0 / rho, p, 1e8) > 0.0);
+    };
+    const double shock[] = {3940.0, 1.489, 2.02}, polynomial[] = {76e9, 128e9, 125e9, 2.0};
+    check(make_law<MieGruneisenShock>(shock, {8930.0, 0.0, 294.0}));
+    check(make_law<MieGruneisenPolynomial>(polynomial, {2700.0, 0.0, 294.0}));
+    check(iron());
+    check(tnt());
+    check(ideal(1.4, 1.2, 1e5));
+    check(stiffened(4.4, 6e8, 1000.0, 1e9), false);  // a liquid for ever
   }
 
   TEST_CASE("Tillotson: Newton on e converges for any step, also across the borders") {

@@ -26,6 +26,26 @@ struct PressureSplit {
   Real thermal;  ///< B rho = dp/de at constant rho [kg/m^3]
 };
 
+/// Share of its cold tension that a solid still carries at x = rho/rho0: all down to 0.8, none from
+/// 0.5 on, where it has parted; smooth in between, so p and c^2 have no jump. Cold curves are
+/// fitted in compression; carried on to the gas they would leave a vapour of 1e-4 of the density
+/// with a tension of the size of the bulk modulus. The work up to there is near the heat of
+/// vaporisation (aluminium, A = 75 GPa: 4 MJ/kg). No metal is known to reach 0.8 (ideal strengths
+/// lie at 0.85 to 0.95); codes with this law cut the tension off in expanded states likewise
+/// (Brundage, Procedia Engineering 58, 2013).
+template <class Real>
+struct Cohesion {
+  Real share;
+  Real by_x;  ///< slope
+};
+template <class Real>
+KRATER_FORCE_INLINE Cohesion<Real> cohesion(Real x) {
+  constexpr double whole = 0.8, parted = 0.5;
+  const Real t = clamp((x - parted) * (1.0 / (whole - parted)), Real(0.0), Real(1.0));
+  return {t * t * fnma(Real(2.0), t, Real(3.0)),
+          Real(6.0 / (whole - parted)) * (t * (Real(1.0) - t))};
+}
+
 /// An equation of state that is a line in e at every density.
 template <class Law>
 concept LinearInEnergy = requires(const Law& law) {
