@@ -97,6 +97,10 @@ void print_body(const Simulation& sim, const Scene& scene, int index, int coarse
   print_shape(scene, body, coarser);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
+  if (!body.options().rigid())
+    fmt::print("\n  pressure: {}", body.pressure_on_grid(sim.scene())
+                                       ? "integrated on the grid (a fluid, or a soft solid)"
+                                       : "integrated over the points");
   fmt::print("\n  columns ({} bytes per point):", body.layout().stride());
   for (const Column& column : body.layout().columns())
     fmt::print(" {}{}", column.field->name,

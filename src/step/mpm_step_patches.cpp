@@ -28,11 +28,12 @@ std::uint64_t hash_of(const double* data, std::size_t count) {
 // of its points, it would change none in any later step either, and is passed over, its tile with
 // it, until a node around it moves. The hash is paid only in that one gather.
 bool MpmStep::may_sleep(GatherPart part) const {
-  return method_.dormant_blocks && part == GatherPart::all && !loaded_ && !boundary_.drives();
+  return method_.dormant_blocks && part == GatherPart::all && !loaded_ && !boundary_.drives() &&
+         fluid_patches_.empty();
 }
 
 bool MpmStep::asleep(const NodeBlock& block) const {
-  if (!block.inert || block.at_boundary) return false;
+  if (!block.inert || block.at_boundary || !fluid_patches_.empty()) return false;
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
     const int p = grid_.tile_refs[static_cast<std::size_t>(t)].patch;
     if (!grid_.patches[static_cast<std::size_t>(p)].tile_current) return false;
