@@ -133,6 +133,8 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   dt_ = clock.at(1);
   dt_free_ = clock.at(2);
   max_rate_ = clock.at(4);
+  boundary_.set_time(time_);
+  step_->set_last_step(dt_);
   steps_ = demand(checkpoint, "counters").integers.at(0);
   limiter_kind_ = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
   const auto& audit = demand(checkpoint, "audit").doubles;

@@ -65,6 +65,7 @@ double MpmStep::advance(double dt) {
       dt = step_usf(dt);
       break;
   }
+  last_step_ = dt;
   migrate();
   return dt;
 }
@@ -88,6 +89,15 @@ void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
   audit_.contact_pairs = c.contact.nodes;
   for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
   audit_.wall_columns = c.walls.columns_in_contact;
+  // Planes that fold act on the way from the points to the grid.
+  audit_.wall_work += c.walls.fold_work;
+  audit_.transfer_in += c.walls.fold_work;
+}
+
+void MpmStep::account_folds(Constraints& c, double dt) const {
+  const BoundaryWork folds = boundary_.folded(dt, alpha_of(method_, method_.flip_fraction));
+  c.walls.fold_work = folds.fold_work;
+  for (std::size_t a = 0; a < 3; ++a) c.walls.impulse[a] += folds.impulse[a];
 }
 
 double MpmStep::step_usl(double dt) {
@@ -97,6 +107,7 @@ double MpmStep::step_usl(double dt) {
   GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
   Constraints constraints = constrain();
+  account_folds(constraints, dt);
   if (method_.transfer == Transfer::xpic) {
     const std::array<double, 3> impulse = filter_velocity();
     for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
@@ -112,13 +123,13 @@ double MpmStep::step_musl(double dt) {
   particles_to_grid(kernels_, bodies_, dt);
   GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
-  const Constraints constraints = constrain();
+  Constraints constraints = constrain();
+  account_folds(constraints, dt);
   grid_to_particles(GatherPart::velocity_only, dt);
 
-  // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
-  // on top the strain would feed on itself (it blew up in the Taylor test); APIC's are smooth and
-  // need their L.
-  particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
+  // The new velocities, and L of the same v+, with the old weights. L of this projection would not
+  // do: next to the residual that TFLIP keeps it would feed on itself.
+  particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
   const Constraints repeated = constrain(true);
   grid_to_particles(GatherPart::strain_move, dt);
@@ -131,21 +142,30 @@ double MpmStep::step_musl(double dt) {
   return dt;
 }
 
+// Stress first: the strain of the motion that the last step made, seen where it ended,
+// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
+// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
+// step.
 double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
+  const bool moved = last_step_ > 0;
+  if (moved) {
+    particles_to_grid(kernels_, bodies_, last_step_);
+    double unused = last_step_;
+    GridEnergy grid = momentum(unused, 0);
+    begin_rigid(last_step_, grid);
+    constrain(true);
+    grid_to_particles(GatherPart::strain_only, last_step_);
+    audit_.step_external = 0;
+    rigid_.rewind();
+  }
   particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 0);
+  GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
-  constrain(true);
-  grid_to_particles(GatherPart::strain_only, dt);
-  audit_.step_external = 0;
-  rigid_.rewind();
-
-  particles_to_grid(kernels_, bodies_, dt);
-  grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  const Constraints constraints = constrain();
+  Constraints constraints = constrain();
+  account_folds(constraints, dt);
   grid_to_particles(GatherPart::velocity_move, dt);
+  if (!moved) audit_.internal = internal;
   book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
 }
@@ -156,6 +176,10 @@ SweepSettings MpmStep::settings(double dt) const {
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
   s.average_cells = method_.cell_averaging;
+  for (int a = 0; a < grid_.geometry().dimension; ++a) {
+    s.first[static_cast<unsigned>(a)] = boundary_.last_storage(a, 0);
+    s.last[static_cast<unsigned>(a)] = boundary_.last_storage(a, 1);
+  }
   return s;
 }
 
@@ -252,6 +276,7 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
 }
 
 void MpmStep::grid_to_particles(GatherPart part, double dt) {
+  boundary_.set_step(dt);
   SweepSettings s = settings(dt);
   s.may_sleep = may_sleep(part);
   const bool ahead = may_scatter_ahead(part);

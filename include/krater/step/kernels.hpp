@@ -8,6 +8,8 @@
 /// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the
 /// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-. Two-dimensional
 /// frames leave index 2 unused.
+#include <array>
+
 #include "krater/grid/blocks.hpp"
 #include "krater/materials/stage.hpp"
 
@@ -23,6 +25,7 @@ struct PointColumns {
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
   int removed = -1;  ///< `failed` where failure takes points out of the computation
   int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
+  int domain = -1, deformation = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
       local_rate = -1;  ///< local record
 };
@@ -41,6 +44,7 @@ struct SweepSettings {
   double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18
+  std::array<double, 3> first{}, last{};  ///< where the domain ends, storage coordinates
 };
 
 struct MomentumSettings {

@@ -5,8 +5,8 @@
 ///   particles_to_grid -> fold symmetry planes -> momentum -> contact -> walls ->
 ///   grid_to_particles (+ stresses) -> migrate.
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
-/// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
-/// (Hammerquist & Nairn 2017) before the gather.
+/// the projection. usf: stress from v- first, of the motion of the step before. xpic(m): grid
+/// velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,6 +55,8 @@ class MpmStep {
   int limiting_patch() const { return limiting_patch_; }
   /// Call after points were added or read from a checkpoint: links, memory, padding.
   void relink();
+  /// The step taken last, after a restart [s].
+  void set_last_step(double dt) { last_step_ = dt; }
   /// Smallest mass of a point, once for all [kg].
   void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-12 * m; }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
@@ -78,6 +80,7 @@ class MpmStep {
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
   void book(const Audit::StepEnergies& energies, const Constraints& constraints);
+  void account_folds(Constraints& constraints, double dt) const;
   void halve_until_safe(double& dt, double max_change);
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
@@ -116,6 +119,7 @@ class MpmStep {
   MomentumSettings node_settings_;
   std::vector<std::size_t> boundary_blocks_;
   double max_rate_ = 0;
+  double last_step_ = 0;  ///< usf: strains are those of the step before [s]
   int limiting_patch_ = -1;
   AlignedBuffer zeros_, filtered_;
   std::vector<Removed> removed_;
