@@ -107,5 +107,5 @@ EFFECTS = {  # name: what is changed in the Taylor scene
     "linear for the shock equation of state": {"replace": {"eos": "eos: linear"}},
     "no cell averages": {"method": ", cell_averaging: false"},
     "flip for tflip (no affine part)": {"method": ", transfer: flip"},
-    "linear shape functions": {"method": ", shape: linear, update: musl"},
+    "linear shape functions": {"method": ", shape: linear, update: musl, transfer: flip"},
 }

@@ -94,7 +94,10 @@ void Body::declare_method_columns(const Scene& scene) {
   layout_.state<field::Density>(material_->density, kMethod);
   const MethodOptions& m = scene.method;
   if (carries_affine(m.transfer)) layout_.state<field::AffineVelocity>(0, kMethod);
-  if (m.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
+  if (m.shape == Shape::gimp) {
+    layout_.state<field::HalfWidth>(0, kMethod);
+    layout_.state<field::Domain>(0, kMethod);
+  }
   if (m.update == Update::musl || m.transfer == Transfer::xpic || m.reference != Reference::current)
     layout_.state<field::GridVelocity>(0, kMethod);
   if (m.cell_averaging) layout_.state<field::ShockIndicator>(0, kMethod);
@@ -175,6 +178,8 @@ BodyKernelData Body::kernel_data() const {
   c.sound_speed = state(field::SoundSpeed::info);
   c.indicator = state(field::ShockIndicator::info);
   c.half_width = state(field::HalfWidth::info);
+  c.domain = state(field::Domain::info);
+  c.deformation = state(field::DeformationGradient::info);
   c.failed = state(field::Failed::info);
   if (material_->failure == FailureAction::remove) c.removed = c.failed;
   c.body_acceleration = state(field::BodyAcceleration::info);
@@ -227,7 +232,7 @@ void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& s
   MirrorSides mirrors{};
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t side = 0; side < 2; ++side)
-      mirrors[a][side] = scene.grid.boundary[a][side].kind != BoundaryKind::open;
+      mirrors[a][side] = scene.grid.boundary[a][side].closed();
   const auto thickness = [&](double share) {
     return thickness_of_share(*options_->solid, scene.frame, seeds, domain_box(scene), mirrors,
                               share);
@@ -273,6 +278,7 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
     set(field::Velocity::info, a, velocity[i]);
     set(field::GridVelocity::info, a, velocity[i]);
     set(field::HalfWidth::info, a, seed.half_width[i]);
+    set(field::Domain::info, tensor_axis(scene.frame, a), seed.half_width[i] * seed.half_width[i]);
   }
   if (options_->velocity && carries_affine(scene.method.transfer)) {
     // The affine part holds part of a spinning body's angular momentum and energy: differences over

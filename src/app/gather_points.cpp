@@ -89,7 +89,10 @@ MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bo
   for (int a = 0; a < sim.geometry().dimension; ++a)
     c.max[static_cast<std::size_t>(a)] = sim.geometry().upper(a);
   for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t s = 0; s < 2; ++s) c.boundary[a][s] = scene.grid.boundary[a][s].kind;
+    for (std::size_t s = 0; s < 2; ++s) {
+      const Boundary& side = scene.grid.boundary[a][s];  // one that travels is gone from its place
+      c.boundary[a][s] = side.mirrors(static_cast<int>(a)) ? side.kind : BoundaryKind::open;
+    }
   // The widest spacing: a surface is told to that.
   c.points_per_direction = std::numeric_limits<int>::max();
   for (const int b : bodies) {

@@ -110,7 +110,7 @@ class Runner {
   FolderLock lock_;
   int frame_ = 0;
   std::int64_t first_step_ = 0;
-  std::string changed_;  ///< keys of the scene, since the checkpoint
+  std::string changed_;     ///< keys of the scene, since the checkpoint
   double foreseen_dt_ = 0;  ///< the first long step [s]; 0 once it was told that it does not hold
 };
 

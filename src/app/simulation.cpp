@@ -246,6 +246,7 @@ double Simulation::next_step(double until) {
 void Simulation::step(double until) {
   const double asked = next_step(until);
   rigid_.set_time(time_);
+  if (boundary_.set_time(time_)) step_->relink();
   if (scene_.body_force) apply_body_force();
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   try {

@@ -131,7 +131,10 @@ std::string Simulation::describe_hottest() const {
       const int n = static_cast<int>(p);
       double energy = point_kinetic(patch, i, c, geometry_) / value(n, i, c.mass / kLanes);
       if (c.energy >= 0) energy += value(n, i, c.energy / kLanes);
-      if (energy > greatest || std::isnan(energy)) greatest = energy, where = {n, i};
+      if (energy > greatest || std::isnan(energy)) {
+        greatest = energy;
+        where = {n, i};
+      }
       if (std::isnan(energy)) return describe_point(n, i) + ", which is not finite";
     }
   }

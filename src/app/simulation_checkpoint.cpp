@@ -134,6 +134,8 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   dt_ = clock.at(1);
   dt_free_ = clock.at(2);
   limit_ = {clock.at(4), 0, static_cast<int>(clock.at(5)), clock.at(6)};
+  boundary_.set_time(time_);
+  step_->set_last_step(dt_);
   steps_ = demand(checkpoint, "counters").integers.at(0);
   limit_.kind = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
   const auto& audit = demand(checkpoint, "audit").doubles;

@@ -28,8 +28,8 @@ const std::vector<std::string>& vector_names(Frame f) {
 /// Columns that serve the method, not the user.
 bool is_internal(const char* name) {
   static const std::set<std::string> names{
-      "id",         "position",      "affine_velocity",   "shock_indicator",
-      "half_width", "grid_velocity", "body_acceleration", "deviatoric_stress"};
+      "id",     "position",      "affine_velocity",   "shock_indicator",  "half_width",
+      "domain", "grid_velocity", "body_acceleration", "deviatoric_stress"};
   return names.contains(name);
 }
 
@@ -245,6 +245,8 @@ Json audit_json(const Simulation& sim) {
   events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
   events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
   events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
+  events["penetrations"] = Json::of(static_cast<std::int64_t>(a.penetrations));
+  events["deepest_reflection_cells"] = Json::of(a.deepest_reflection);
   events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
   j["events"] = events;
   return j;

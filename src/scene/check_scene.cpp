@@ -34,25 +34,44 @@ std::string short_text(double value) {
   return text.str();
 }
 
-/// Theory 17: near the edge of a hat the nodal acceleration grows like 1/distance, and so does
-/// the velocity gradient with update usl; the part of the velocity that pure FLIP keeps lets it
-/// grow without bound.
+/// Combinations of shape, update and transfer that fail, and what those cost that only lose. Near
+/// the edge of a hat the nodal acceleration grows like 1/distance, and so does the velocity
+/// gradient with update usl (src/THEORY.md 17); a gradient of linear functions that the points
+/// carry (tflip, apic) grows by itself. The figures are those of an elastic disc after three turns
+/// (src/README.md).
 void check_method(Reading& reading) {
   const MethodOptions& method = reading.scene.method;
-  const bool kinked = method.shape != Shape::quadratic_bspline;
-  if (kinked && method.update == Update::usl && method.transfer == Transfer::flip) {
-    const std::string shape = method.shape == Shape::gimp ? "gimp" : "linear";
-    fail("method",
-         "shape " + shape +
-             " is unstable with update usl and transfer flip (src/THEORY.md 17); use update: musl, "
-             "transfer: tflip or shape: quadratic_bspline",
+  const bool linear = method.shape == Shape::linear, usl = method.update == Update::usl;
+  const bool affine = method.transfer == Transfer::tflip || method.transfer == Transfer::apic;
+  std::vector<std::string>& notes = reading.scene.notes;
+  const bool current = method.reference == Reference::current;  // else no point crosses a cell
+  if (linear && current && (usl || affine)) {
+    fail("method.shape",
+         std::string{"shape linear is unstable with "} +
+             (usl ? "update usl" : "transfers that carry a velocity gradient (tflip, apic)") +
+             "; use shape: quadratic_bspline",
          reading);
   }
-  if (method.transfer == Transfer::xpic && method.update == Update::usl && method.xpic_order > 2 &&
-      reading.scene.time.cfl >= 0.5) {
-    reading.scene.notes.push_back(
-        "method: xpic of order " + std::to_string(method.xpic_order) +
-        " with update usl was unstable from cfl 0.5 on in tests (src/THEORY.md 17)");
+  if (method.shape == Shape::gimp && usl && method.transfer == Transfer::flip) {
+    fail("method",
+         "shape gimp is unstable with update usl and transfer flip (src/THEORY.md 17); use "
+         "transfer: "
+         "tflip or shape: quadratic_bspline",
+         reading);
+  }
+  if (method.transfer == Transfer::xpic && !usl) {
+    fail("method.transfer",
+         "the filter of xpic belongs to update usl; with musl or usf nothing would be left of it "
+         "but its loss; use update: usl, or transfer: tflip",
+         reading);
+  }
+  if (method.transfer == Transfer::xpic && usl) {
+    notes.push_back(
+        "method: xpic takes rotation away: a spinning disc keeps a tenth of its angular momentum "
+        "for three turns (order 2); tflip and apic keep it");
+    if (method.xpic_order > 2 && reading.scene.time.cfl >= 0.5)
+      notes.push_back("method: xpic of order " + std::to_string(method.xpic_order) +
+                      " with update usl was unstable from cfl 0.5 on in tests (src/THEORY.md 17)");
   }
 }
 
@@ -182,6 +201,36 @@ double points_of_zones(const BodyOptions& body, const Scene& scene, double per_c
   return points;
 }
 
+/// Sides that move: inwards, and not as far as the other side.
+void check_driven_sides(Reading& reading) {
+  const Scene& scene = reading.scene;
+  const GridOptions& grid = scene.grid;
+  for (int axis = 0; axis < dimension(scene.frame); ++axis)
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto a = static_cast<std::size_t>(axis);
+      const Boundary& plane = grid.boundary[a][side];
+      if (!plane.drives()) continue;
+      const std::string path = "grid.boundary." + std::string{axis_name(scene.frame, axis)} +
+                               (side == 0 ? "_min" : "_max");
+      if (scene.method.reference != Reference::current)
+        fail(path, "a side with a velocity needs method.reference: current", reading);
+      const double inwards = (side == 0 ? 1 : -1) * plane.velocity[a];
+      if (inwards < 0)
+        fail(path,
+             "a side can only move into the domain, as a piston does; to pull, or to draw a piston "
+             "back, use a rigid body (bodies.NAME.rigid) inside an open side",
+             reading);
+      const double room = grid.max[a] - grid.min[a] - 3 * grid.cell;
+      if (inwards * scene.time.end > room)
+        fail(path,
+             "the side would reach the other one at " +
+                 short_text((grid.max[a] - grid.min[a]) / inwards) +
+                 " s; use an earlier time.end (less than " + short_text(room / inwards) +
+                 " s) or a larger grid.box",
+             reading);
+    }
+}
+
 void check_body(BodyOptions& body, Reading& reading) {
   const Scene& scene = reading.scene;
   const GridOptions& grid = scene.grid;
@@ -243,6 +292,7 @@ void check_scene(Reading& reading) {
   check_method(reading);
   check_reference(reading);
   check_contact(reading);
+  check_driven_sides(reading);
   check_rigid(reading);
   std::vector<bool> used(scene.materials.size(), false);
   for (BodyOptions& body : scene.bodies) {

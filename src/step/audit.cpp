@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/step/audit.hpp"
 
+#include <algorithm>
+
 namespace krater {
 
 void Audit::book_step(const StepEnergies& e, const Constraint& walls, const Constraint& contact) {
@@ -44,6 +46,11 @@ void Audit::book_removed(const Removed& gone) {
   removed_failed += gone.failed;
   for (std::size_t a = 0; a < 3; ++a) removed_momentum[a] += gone.momentum[a];
   reflections += gone.reflections;
+  penetrations += gone.penetrations;
+  deepest_reflection = std::max(deepest_reflection, gone.deepest);
+  kinetic += gone.side_work;
+  wall_work += gone.side_work;
+  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += gone.side_impulse[a];
 }
 
 }  // namespace krater

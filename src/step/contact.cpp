@@ -49,7 +49,7 @@ ContactSet::ContactSet(const GridGeometry& geometry, const BoundaryConditions& c
 double ContactSet::covered(int axis, int index) const {
   const auto& sides = conditions_[static_cast<unsigned>(axis)];
   const int last = geometry_.cells[static_cast<unsigned>(axis)] + 1;
-  const bool low = sides[0].kind != BoundaryKind::open, high = sides[1].kind != BoundaryKind::open;
+  const bool low = sides[0].mirrors(axis), high = sides[1].mirrors(axis);
   const bool cut = (low && index == 1) || (high && index == last);
   if (!hoop_ || axis != 0) return cut ? 0.5 : 1.0;
   // int S r dr over r > 0, with the ghost's part folded: B-spline 13/64 and 1 + 1/192 at the first
@@ -64,8 +64,8 @@ double ContactSet::covered(int axis, int index) const {
 int ContactSet::mirrored(int axis, int index) const {
   const auto& sides = conditions_[static_cast<unsigned>(axis)];
   const int last = geometry_.cells[static_cast<unsigned>(axis)] + 1;
-  if (sides[0].kind != BoundaryKind::open && index < 1) return 2 - index;
-  if (sides[1].kind != BoundaryKind::open && index > last) return 2 * last - index;
+  if (sides[0].mirrors(axis) && index < 1) return 2 - index;
+  if (sides[1].mirrors(axis) && index > last) return 2 * last - index;
   return index;
 }
 

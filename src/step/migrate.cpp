@@ -2,6 +2,8 @@
 #include "krater/step/migrate.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -16,13 +18,66 @@ void copy_point(Patch& patch, int stride, int from, int to) {
     component(patch, stride, k, to) = component(patch, stride, k, from);
 }
 
-/// Outside a closed side by round-off: mirror position and normal velocity.
-void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int axis, int i) {
+// Deeper than this, in cells, a point did not pass a closed side by round-off.
+constexpr double kRoundOff = 1e-9;
+
+/// A column of a tensor over tensor axes or grid axes: its image in a plane across `axis`.
+/// `row_sign`: of each row; each column changes sign where it is `axis`.
+void mirror_matrix(Patch& patch, int stride, int offset, int size, int axis,
+                   const std::array<double, 3>& row_sign, int i) {
+  if (offset < 0) return;
+  for (int row = 0; row < size; ++row)
+    for (int k = 0; k < size; ++k) {
+      const double sign = row_sign[static_cast<unsigned>(row)] * (k == axis ? -1.0 : 1.0);
+      if (sign < 0) {
+        double& x = component(patch, stride, offset + kLanes * (size * row + k), i);
+        x = -x;
+      }
+    }
+}
+
+/// Shear components of a symmetric tensor xx yy zz yz xz xy that change sign across tensor axis n.
+void mirror_shear(Patch& patch, int stride, int offset, int n, int i) {
+  if (offset < 0) return;
+  for (int k = 0; k < 3; ++k)
+    if (k != n) {
+      double& x = component(patch, stride, offset + kLanes * (6 - n - k), i);
+      x = -x;
+    }
+}
+
+/// Beyond a closed side: its image inside, with everything that has a direction. What the points
+/// receive so is the plane's impulse and work.
+void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry,
+             const BoundarySet& boundary, int axis, int side, int i, Removed& removed) {
+  const int dim = geometry.dimension;
+  const Boundary& plane =
+      boundary.conditions()[static_cast<unsigned>(axis)][static_cast<unsigned>(side)];
   double& x = component(patch, c.stride, c.position + kLanes * axis, i);
-  const double lower = geometry.min[static_cast<unsigned>(axis)], upper = geometry.upper(axis);
-  x = x < lower ? 2 * lower - x : 2 * upper - x;
-  double& v = component(patch, c.stride, c.velocity + kLanes * axis, i);
-  v = -v;
+  const double at = boundary.position(axis, side, boundary.step());
+  const double depth = std::abs(x - at) * geometry.inv_h;
+  removed.reflections += 1;
+  if (depth > kRoundOff) removed.penetrations += 1;
+  removed.deepest = std::max(removed.deepest, depth);
+  x = 2 * at - x;
+  std::array<double, 3> sign{1, 1, 1}, stress_sign{1, 1, 1};
+  const double m = component(patch, c.stride, c.mass, i);
+  for (int a = 0; a < dim; ++a) {
+    const auto k = static_cast<unsigned>(a);
+    if (a != axis && plane.kind != BoundaryKind::sticky) continue;
+    sign[k] = -1;
+    double& v = component(patch, c.stride, c.velocity + kLanes * a, i);
+    const double image = 2 * plane.velocity[k] - v;
+    removed.side_impulse[k] += m * (image - v);
+    removed.side_work += 0.5 * m * (image * image - v * v);
+    v = image;
+  }
+  mirror_matrix(patch, c.stride, c.affine, dim, axis, sign, i);
+  const int n = dim == 2 ? 2 * axis : axis;
+  stress_sign[static_cast<unsigned>(n)] = -1;
+  mirror_shear(patch, c.stride, c.stress, n, i);
+  mirror_shear(patch, c.stride, c.domain, n, i);
+  mirror_matrix(patch, c.stride, c.deformation, 3, n, stress_sign, i);
 }
 
 void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int i,
@@ -42,12 +97,11 @@ bool keep_inside(Patch& patch, const GridGeometry& geometry, const BoundarySet& 
                  const PointColumns& c, int i, Removed& removed) {
   for (int a = 0; a < geometry.dimension; ++a) {
     const double x = component(patch, c.stride, c.position + kLanes * a, i);
-    const bool low = x < geometry.min[static_cast<unsigned>(a)];
-    const bool high = geometry.storage(x, a) > geometry.cells[static_cast<unsigned>(a)] + 1.0;
+    const bool low = boundary.beyond(a, 0, x), high = boundary.beyond(a, 1, x);
     if (!low && !high) continue;
-    if (boundary.is_open(a, low ? 0 : 1)) return false;
-    reflect(patch, c, geometry, a, i);
-    removed.reflections += 1;
+    const int side = low ? 0 : 1;
+    if (boundary.is_open(a, side)) return false;
+    reflect(patch, c, geometry, boundary, a, side, i, removed);
   }
   return true;
 }

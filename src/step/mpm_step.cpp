@@ -13,9 +13,6 @@ namespace {
 // A step is halved when the change of velocity alone would move material by more than this share of
 // a cell.
 constexpr double kMaxShare = 0.3;
-// usf strains the points before the step's own forces are known: those of the last stress leave a
-// factor 2 for what one step may add.
-constexpr double kMaxShareAhead = 0.5 * kMaxShare;
 
 bool strains(GatherPart part) {
   return part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
@@ -77,6 +74,7 @@ double MpmStep::advance(double dt) {
       dt = step_usf(dt);
       break;
   }
+  last_step_ = dt;
   migrate();
   return dt;
 }
@@ -107,15 +105,25 @@ void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
   audit_.contact_pairs = c.contact.nodes;
   for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
   audit_.wall_columns = c.walls.columns_in_contact;
+  // Planes that fold act on the way from the points to the grid.
+  audit_.wall_work += c.walls.fold_work;
+  audit_.transfer_in += c.walls.fold_work;
+}
+
+void MpmStep::account_folds(Constraints& c, double dt) const {
+  const BoundaryWork folds = boundary_.folded(dt, alpha_of(method_, method_.flip_fraction));
+  c.walls.fold_work = folds.fold_work;
+  for (std::size_t a = 0; a < 3; ++a) c.walls.impulse[a] += folds.impulse[a];
 }
 
 double MpmStep::step_usl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1, kMaxShare);
+  GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
   Constraints constraints = constrain();
+  account_folds(constraints, dt);
   if (method_.transfer == Transfer::xpic) {
     const std::array<double, 3> impulse = filter_velocity();
     for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
@@ -130,16 +138,16 @@ double MpmStep::step_usl(double dt) {
 double MpmStep::step_musl(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1, kMaxShare);
+  GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
-  const Constraints constraints = constrain();
+  Constraints constraints = constrain();
+  account_folds(constraints, dt);
   watch_energy(grid, constraints);
   grid_to_particles(GatherPart::velocity_only, dt);
 
-  // The new velocities with the old weights. TFLIP's velocities keep their residual: with the old L
-  // on top the strain would feed on itself (it blew up in the Taylor test); APIC's are smooth and
-  // need their L.
-  particles_to_grid(method_.transfer == Transfer::tflip ? plain_ : kernels_, bodies_, dt);
+  // The new velocities, and L of the same v+, with the old weights. L of this projection would not
+  // do: next to the residual that TFLIP keeps it would feed on itself.
+  particles_to_grid(kernels_, bodies_, dt);
   const GridEnergy again = momentum(dt, 0);
   const Constraints repeated = constrain(true);
   grid_to_particles(GatherPart::strain_move, dt);
@@ -152,23 +160,31 @@ double MpmStep::step_musl(double dt) {
   return dt;
 }
 
+// Stress first: the strain of the motion that the last step made, seen where it ended,
+// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
+// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
+// step.
 double MpmStep::step_usf(double dt) {
   const double kinetic = audit_.kinetic, internal = audit_.internal;
+  const bool moved = last_step_ > 0;
+  if (moved) {
+    particles_to_grid(kernels_, bodies_, last_step_);
+    double unused = last_step_;
+    GridEnergy grid = momentum(unused, 0);
+    begin_rigid(last_step_, grid);
+    constrain(true);
+    grid_to_particles(GatherPart::strain_only, last_step_);
+    audit_.step_external = 0;
+    rigid_.rewind();
+  }
   particles_to_grid(kernels_, bodies_, dt);
-  momentum(dt, 1, kMaxShareAhead);  // settles the length of the step for strain and motion alike
-  GridEnergy grid = momentum(dt, 0);
+  GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
-  watch_energy(grid, constrain(true));
-  grid_to_particles(GatherPart::strain_only, dt);
-  audit_.step_external = 0;
-  rigid_.rewind();
-
-  particles_to_grid(kernels_, bodies_, dt);
-  grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  const Constraints constraints = constrain();
+  Constraints constraints = constrain();
+  account_folds(constraints, dt);
   watch_energy(grid, constraints);
   grid_to_particles(GatherPart::velocity_move, dt);
+  if (!moved) audit_.internal = internal;
   book({kinetic, internal, grid.before, grid.after}, constraints);
   return dt;
 }
@@ -180,6 +196,10 @@ SweepSettings MpmStep::settings(double dt) const {
   s.alpha = alpha_of(method_, method_.flip_fraction);
   s.average_cells = method_.cell_averaging;
   s.pressure_nodes = pressure_nodes_.data();
+  for (int a = 0; a < grid_.geometry().dimension; ++a) {
+    s.first[static_cast<unsigned>(a)] = boundary_.last_storage(a, 0);
+    s.last[static_cast<unsigned>(a)] = boundary_.last_storage(a, 1);
+  }
   return s;
 }
 
@@ -231,7 +251,7 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   throw_faults();
 }
 
-MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share, double most_cells) {
+MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
   const bool fluids = !fluid_patches_.empty();
@@ -255,8 +275,8 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share, double mos
   double max_change = 0;
   for (const NodeBlock& block : grid_.node_blocks)
     max_change = std::max(max_change, block.sums.max_change);
-  if (force_share > 0 && max_change * dt > most_cells * grid_.geometry().h)
-    halve_until_safe(dt, max_change, most_cells);
+  if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
+    halve_until_safe(dt, max_change);
   lap(Phase::boundary);
   GridEnergy energy{rigid_.kinetic(), rigid_.kinetic()};
   for (const NodeBlock& block : grid_.node_blocks) {
@@ -267,9 +287,9 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share, double mos
   return energy;
 }
 
-void MpmStep::halve_until_safe(double& dt, double max_change, double most_cells) {
+void MpmStep::halve_until_safe(double& dt, double max_change) {
   double share = 1;
-  while (share * max_change * share * dt > most_cells * grid_.geometry().h) share *= 0.5;
+  while (share * max_change * share * dt > kMaxShare * grid_.geometry().h) share *= 0.5;
   dt *= share;
   audit_.retries += 1;
   for (NodeBlock& block : grid_.node_blocks) {
@@ -288,6 +308,7 @@ void MpmStep::halve_until_safe(double& dt, double max_change, double most_cells)
 }
 
 void MpmStep::grid_to_particles(GatherPart part, double dt) {
+  boundary_.set_step(dt);
   SweepSettings s = settings(dt);
   s.may_sleep = may_sleep(part);
   const bool ahead = may_scatter_ahead(part);

@@ -27,8 +27,9 @@ std::array<double, 3> MpmStep::filter_velocity() {
     double unused = 0;
     momentum(unused, 0);
     const BoundaryWork term = boundary_.constrain();
-    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a];
     boundary_.mirror();
+    const BoundaryWork folds = boundary_.folded(0, 0);
+    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a] + folds.impulse[a];
     lap(Phase::boundary);
     for (std::size_t i = 0; i < total; i += kNodeDoubles)
       for (std::size_t a = i; a < i + 3; ++a) {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "krater/core/parallel.hpp"
+#include "krater/step/frames.hpp"
 
 namespace krater {
 
@@ -33,6 +34,22 @@ void write_matrix(Patch& patch, int stride, int offset, const Matrix& m, int i) 
     component(patch, stride, offset + kLanes * k, i) = m(k / m.rows(), k % m.cols());
 }
 
+/// Tensor of the squared half-widths, M <- F M F^T (step/gather.hpp).
+void renew_domain(Patch& patch, const PointColumns& c, const Matrix& F, int i) {
+  const int dimension = static_cast<int>(F.rows()), step = dimension == 2 ? 2 : 1;
+  const auto value = [&](int a, int b) -> double& {
+    return component(patch, c.stride, c.domain + kLanes * voigt(step * a, step * b), i);
+  };
+  Matrix M(dimension, dimension);
+  for (int a = 0; a < dimension; ++a)
+    for (int b = 0; b < dimension; ++b) M(a, b) = value(a, b);
+  M = F * M * F.transpose();
+  for (int a = 0; a < dimension; ++a) {
+    for (int b = 0; b < dimension; ++b) value(a, b) = M(a, b);
+    component(patch, c.stride, c.half_width + kLanes * a, i) = std::sqrt(M(a, a));
+  }
+}
+
 /// One point onto its current configuration.
 void renew_point(Patch& patch, const PointColumns& c, int dimension, int i) {
   const Matrix F = read_matrix(patch, c.stride, c.map, dimension, i);
@@ -43,9 +60,8 @@ void renew_point(Patch& patch, const PointColumns& c, int dimension, int i) {
   for (int a = 0; a < dimension; ++a) {
     component(patch, c.stride, c.grid_position + kLanes * a, i) =
         component(patch, c.stride, c.position + kLanes * a, i);
-    if (c.half_width >= 0)
-      component(patch, c.stride, c.half_width + kLanes * a, i) *= F.col(a).norm();
   }
+  if (c.half_width >= 0) renew_domain(patch, c, F, i);
   write_matrix(patch, c.stride, c.map, Matrix::Identity(dimension, dimension), i);
 }
 

@@ -137,11 +137,9 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("manufactured bar: linear functions fail when points cross cells") {
-    for (const bool flip : {true, false}) {
-      const Study s = study({8, 16, 32, 64}, 0.05, shape("linear", flip));
-      CHECK(s.error[3] > 2 * s.error[0]);
-      CHECK(s.order.back() < 0);
-    }
+    const Study s = study({8, 16, 32, 64}, 0.05, shape("linear", true));
+    CHECK(s.error[3] > 2 * s.error[0]);
+    CHECK(s.order.back() < 0);
   }
 
   TEST_CASE("manufactured bar: splines reach their noise floor") {

@@ -49,8 +49,8 @@ class Simulation {
   void step(double until);
   bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
   double stable_step() const { return scene_.time.cfl / limit_.rate; }  ///< of the next step [s]
-  const char* limiter() const;             ///< what limits the time step
-  std::string describe_limit() const;      ///< the same with the point and what it has
+  const char* limiter() const;         ///< what limits the time step
+  std::string describe_limit() const;  ///< the same with the point and what it has
   int limiter_kind() const {
     return limit_.kind;
   }  ///< 0 wave speed, 1 material velocity, 2 volume change

@@ -59,6 +59,8 @@ KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last 
 KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1,
              "|tr D| h / c of the last update: switches cell averaging off");
 KRATER_FIELD(HalfWidth, "half_width", "m", kPerAxis, "half-width of the point's domain (gimp)");
+KRATER_FIELD(Domain, "domain", "m^2", 6,
+             "squares of the half-widths as a tensor that turns and stretches with the material");
 KRATER_FIELD(DeformationGradient, "deformation_gradient", "1", 9,
              "F, row-major, from the start of the run");
 KRATER_FIELD(ReferencePosition, "reference_position", "m", kPerAxis,

@@ -11,6 +11,7 @@
 ///                   - W_ext - W_wall - W_contact + removed
 /// The residual is an arithmetic check (round-off); the quality figure is energy_error_fraction.
 #include <array>
+#include <cmath>
 
 #include "krater/core/batch_types.hpp"
 
@@ -20,8 +21,12 @@ namespace krater {
 struct Removed {
   double count = 0, mass = 0, kinetic = 0, internal = 0;
   std::array<double, 3> momentum{};
-  double failed = 0;       ///< of these, removed by failure
-  double reflections = 0;  ///< points put back at a closed side (round-off)
+  double failed = 0;                     ///< of these, removed by failure
+  double reflections = 0;                ///< points put back at a closed side
+  double penetrations = 0;               ///< of these, from further than round-off
+  double deepest = 0;                    ///< of the reflections [cells]
+  double side_work = 0;                  ///< of the sides in putting back [J]
+  std::array<double, 3> side_impulse{};  ///< and their impulse [N s]
 };
 
 struct Audit {
@@ -36,8 +41,10 @@ struct Audit {
   std::array<double, 3> removed_momentum{}, wall_impulse{};
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
-  double failures = 0, snap_backs = 0, spalls = 0;                                  ///< events
-  double new_references = 0;                                                        ///< events
+  double penetrations = 0;                          ///< reflections from further than round-off
+  double deepest_reflection = 0;                    ///< [cells]
+  double failures = 0, snap_backs = 0, spalls = 0;  ///< events
+  double new_references = 0;                        ///< events
   double contact_pairs = 0;  ///< pairs of fields at nodes that pushed in the last step
   double wall_columns = 0;   ///< columns in contact in the last step
   double step_external = 0;  ///< work of body forces in the step under way [J]
@@ -71,11 +78,11 @@ struct Audit {
            removed_energy;
   }
   /// (sum of transfers + time centring) / E_0, signed: what the scheme itself lost (positive) or
-  /// gained. E_0 is the energy at the start, or the external work where a scene starts without
-  /// any.
+  /// gained. E_0 is the energy at the start, or the work of loads and sides where a scene starts
+  /// without any.
   double error_fraction() const {
     const double start = initial_kinetic + initial_internal;
-    const double scale = start > 0 ? start : external_work;
+    const double scale = start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
     return scale != 0 ? (transfer_in + transfer_out + time_centring) / scale : 0.0;
   }
 };

@@ -28,27 +28,34 @@ struct InverseMap {
   Pack m[Dim][Dim];
 };
 
-/// `F` row-major over grid axes, F[Dim i + a] = dx_i/dX_a.
 template <int Dim>
-KRATER_FORCE_INLINE InverseMap<Dim> inverse_map(ReadView F, int g) {
-  const auto f = [&](int i, int a) { return F(g, Dim * i + a); };
-  InverseMap<Dim> out;
+KRATER_FORCE_INLINE void invert(const Pack (&f)[Dim][Dim], Pack (&out)[Dim][Dim]) {
   if constexpr (Dim == 2) {
-    const Pack inverse = 1.0 / (f(0, 0) * f(1, 1) - f(0, 1) * f(1, 0));
-    out.m[0][0] = f(1, 1) * inverse;
-    out.m[0][1] = -(f(0, 1) * inverse);
-    out.m[1][0] = -(f(1, 0) * inverse);
-    out.m[1][1] = f(0, 0) * inverse;
+    const Pack inverse = 1.0 / (f[0][0] * f[1][1] - f[0][1] * f[1][0]);
+    out[0][0] = f[1][1] * inverse;
+    out[0][1] = -(f[0][1] * inverse);
+    out[1][0] = -(f[1][0] * inverse);
+    out[1][1] = f[0][0] * inverse;
   } else {
     const auto minor = [&](int i, int a) {
       const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, a1 = (a + 1) % 3, a2 = (a + 2) % 3;
-      return f(i1, a1) * f(i2, a2) - f(i1, a2) * f(i2, a1);
+      return f[i1][a1] * f[i2][a2] - f[i1][a2] * f[i2][a1];
     };
     const Pack inverse =
-        1.0 / (f(0, 0) * minor(0, 0) + f(0, 1) * minor(0, 1) + f(0, 2) * minor(0, 2));
+        1.0 / (f[0][0] * minor(0, 0) + f[0][1] * minor(0, 1) + f[0][2] * minor(0, 2));
     for (int i = 0; i < 3; ++i)
-      for (int a = 0; a < 3; ++a) out.m[a][i] = minor(i, a) * inverse;
+      for (int a = 0; a < 3; ++a) out[a][i] = minor(i, a) * inverse;
   }
+}
+
+/// `F` row-major over grid axes, F[Dim i + a] = dx_i/dX_a.
+template <int Dim>
+KRATER_FORCE_INLINE InverseMap<Dim> inverse_map(ReadView F, int g) {
+  Pack f[Dim][Dim];
+  for (int i = 0; i < Dim; ++i)
+    for (int a = 0; a < Dim; ++a) f[i][a] = F(g, Dim * i + a);
+  InverseMap<Dim> out;
+  invert<Dim>(f, out.m);
   return out;
 }
 

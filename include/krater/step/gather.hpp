@@ -15,8 +15,8 @@ namespace krater::inline KRATER_ISA {
 
 /// The columns the gather touches, as views.
 struct GatherViews {
-  WriteView position, velocity, affine, kept, map;
-  ReadView grid_position, mass, density, half_width, body_acceleration, energy, sound_speed, failed;
+  WriteView position, velocity, affine, kept, map, half_width, domain;
+  ReadView grid_position, mass, density, body_acceleration, energy, sound_speed, failed;
   WriteView indicator;
   WriteView step_gradient, extra_dilatation;
   ReadView signal;
@@ -31,10 +31,11 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
           write(c.affine),
           write(c.grid_velocity),
           write(c.map),
+          write(c.half_width),
+          write(c.domain),
           read(c.grid_position),
           read(c.mass),
           read(c.density),
-          read(c.half_width),
           read(c.body_acceleration),
           read(c.energy),
           read(c.sound_speed),
@@ -101,7 +102,8 @@ struct PartTraits {
   static constexpr bool kept = Part == GatherPart::strain_move;  ///< move with the kept s+
   static constexpr bool mean =
       Part == GatherPart::filter_move;  ///< move with the mean of old and new v_p
-  static constexpr bool last = move;    ///< velocities and L are final: sum the energies
+  static constexpr bool ended = Part == GatherPart::strain_only;  ///< strain of the move before
+  static constexpr bool last = move;  ///< velocities are final: sum the energies
 };
 
 /// Velocity and position of 8 points; adds the work of body forces.
@@ -127,9 +129,25 @@ KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Fr
   }
 }
 
-/// dt L over tensor axes into the local record; on a fixed reference F goes on to the end of the
-/// step. Returns tr L.
-template <class Frame, class Configuration>
+/// X (I - X)^-1: the map of a step less the identity, from dt L on the configuration at its end.
+template <int Dim>
+KRATER_FORCE_INLINE void from_the_end(Pack (&X)[Dim][Dim]) {
+  Pack A[Dim][Dim], inverse[Dim][Dim], product[Dim][Dim];
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) A[i][j] = (i == j ? 1.0 : 0.0) - X[i][j];
+  invert<Dim>(A, inverse);
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) {
+      product[i][j] = 0.0;
+      for (int k = 0; k < Dim; ++k) product[i][j] = fma(X[i][k], inverse[k][j], product[i][j]);
+    }
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) X[i][j] = product[i][j];
+}
+
+/// f - I of the step over tensor axes into the local record; on a fixed reference F goes on to the
+/// end of the step. `Ended`: the points have moved already (usf). Returns tr L.
+template <class Frame, class Configuration, bool Ended>
 KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
                                         Pack r, double dt, int g) {
   constexpr int D = Frame::dim;
@@ -150,64 +168,99 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
   Pack trace = 0.0;
   if constexpr (D == 2)
     for (int k = 0; k < 9; ++k) view.step_gradient.set(g, k, Pack(0.0));
+  Pack step[D][D];
+  for (int i = 0; i < D; ++i)
+    for (int a = 0; a < D; ++a) step[i][a] = dt * L[i][a];
+  if constexpr (Ended) from_the_end<D>(step);
   for (int i = 0; i < D; ++i) {
     for (int a = 0; a < D; ++a)
-      view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), dt * L[i][a]);
-    trace += L[i][i];
+      view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), step[i][a]);
+    trace += Ended ? step[i][i] * (1 / dt) : L[i][i];
   }
   if constexpr (Frame::hoop) {
-    const Pack hoop = n.V[0] / r;
-    view.step_gradient.set(g, 4, dt * hoop);
-    trace += hoop;
+    const Pack hoop = n.V[0] / r, change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
+    view.step_gradient.set(g, 4, change);
+    trace += Ended ? change * (1 / dt) : hoop;
   }
   return trace;
+}
+
+/// Tensor of the squared half-widths, M <- f M f^T, and the half-widths sqrt(M_aa): a domain that
+/// turns with its material keeps its size, one that was stretched turns its length along.
+template <int Dim>
+KRATER_FORCE_INLINE void carry_domain(const GatherViews& view, int g) {
+  const auto slot = [](int a, int b) { return voigt(tensor_axis<Dim>(a), tensor_axis<Dim>(b)); };
+  Pack f[Dim][Dim], half[Dim][Dim], M[Dim][Dim];
+  for (int i = 0; i < Dim; ++i)
+    for (int a = 0; a < Dim; ++a) {
+      f[i][a] = view.step_gradient(g, 3 * tensor_axis<Dim>(i) + tensor_axis<Dim>(a));
+      if (i == a) f[i][a] += 1.0;
+      M[i][a] = view.domain(g, slot(i, a));
+    }
+  for (int i = 0; i < Dim; ++i)
+    for (int b = 0; b < Dim; ++b) {
+      half[i][b] = 0.0;
+      for (int a = 0; a < Dim; ++a) half[i][b] = fma(f[i][a], M[a][b], half[i][b]);
+    }
+  for (int i = 0; i < Dim; ++i)
+    for (int j = i; j < Dim; ++j) {
+      Pack sum = 0.0;
+      for (int b = 0; b < Dim; ++b) sum = fma(half[i][b], f[j][b], sum);
+      view.domain.set(g, slot(i, j), sum);
+      if (i == j) view.half_width.set(g, i, sqrt(sum));
+    }
 }
 
 /// Shares of the mass it sees from which a point carries no L.
 inline constexpr double kAlone = 0.9, kCrowd = 0.4;
 
-/// L carried to the grid (zero for an isolated point) and the kinetic energy, affine part
-/// 1/2 m h^2/4 L:L included.
-template <class Frame, bool Affine>
-KRATER_FORCE_INLINE void finish_velocity(const GatherViews& view, const PointSums<Frame::dim>& n,
-                                         const LaneWeights<Frame::dim>& lw, double moment, int g,
-                                         GatherSums& sums) {
+/// L of v+, carried to the grid with the new velocity: zero for an isolated point.
+template <class Frame>
+KRATER_FORCE_INLINE void carry_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                        const LaneWeights<Frame::dim>& lw, int g) {
   constexpr int D = Frame::dim;
-  const Pack m = view.mass(g);
+  Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
+  for (int a = 0; a < D; ++a) {
+    Pack squares = 0.0;
+    for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
+    own = own * squares;
+  }
+  const Pack limit = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
+  const Mask alone = own > limit * n.V[3];
+  for (int a = 0; a < D; ++a)
+    for (int i = 0; i < D; ++i) view.affine.set(g, D * i + a, select(alone, Pack(0.0), n.G[a][i]));
+}
+
+/// Kinetic energy, affine part 1/2 m h^2/4 L:L included.
+template <int Dim, bool Affine>
+KRATER_FORCE_INLINE void sum_kinetic(const GatherViews& view, double moment, int g,
+                                     GatherSums& sums) {
   Pack twice = 0.0;
-  for (int a = 0; a < D; ++a) twice = fma(view.velocity(g, a), view.velocity(g, a), twice);
-  if constexpr (Affine) {
-    Pack own = m;  // m_p sum S^2: the point's share of the mass it sees
-    for (int a = 0; a < D; ++a) {
-      Pack squares = 0.0;
-      for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
-      own = own * squares;
-    }
-    const Pack limit = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
-    const Mask alone = own > limit * n.V[3];
-    for (int a = 0; a < D; ++a) {
+  for (int a = 0; a < Dim; ++a) twice = fma(view.velocity(g, a), view.velocity(g, a), twice);
+  if constexpr (Affine)
+    for (int a = 0; a < Dim; ++a) {
       Pack squared = 0.0;
-      for (int i = 0; i < D; ++i) {
-        const Pack L = select(alone, Pack(0.0), n.G[a][i]);
-        view.affine.set(g, D * i + a, L);
+      for (int i = 0; i < Dim; ++i) {
+        const Pack L = view.affine(g, Dim * i + a);
         squared = fma(L, L, squared);
       }
       twice = fma(Pack(moment), squared, twice);
     }
-  }
-  sums.kinetic = fma(0.5 * m, twice, sums.kinetic);
+  sums.kinetic = fma(0.5 * view.mass(g), twice, sums.kinetic);
 }
 
 /// Lanes whose point is no longer in this block or not inside the domain.
 template <int Dim>
-KRATER_FORCE_INLINE Mask left_block(const GridGeometry& grid, const PatchOrigin& origin, ReadView x,
-                                    int g) {
+KRATER_FORCE_INLINE Mask left_block(const SweepSettings& settings, const PatchOrigin& origin,
+                                    ReadView x, int g) {
+  const GridGeometry& grid = *settings.geometry;
   Mask out = Pack(0.0) > Pack(0.0);
   for (int a = 0; a < Dim; ++a) {
     const Pack s = storage(grid, x(g, a), a);
     const Pack cell = base_node(s) - origin.first[a];
     out = out | (cell < Pack(0.0)) | (cell >= Pack(static_cast<double>(block_edge(Dim)))) |
-          (s < Pack(1.0)) | (s > Pack(grid.cells[static_cast<unsigned>(a)] + 1.0));
+          (s < Pack(settings.first[static_cast<unsigned>(a)])) |
+          (s > Pack(settings.last[static_cast<unsigned>(a)]));
   }
   return out;
 }

@@ -34,7 +34,8 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
   for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
   for (int g = 0; g < patch.groups(); ++g) {
     fetch_record(patch, stride, g + kFetchAhead);
-    compute_weights<D, Shape, false>(grid, origin, view.grid_position, view.half_width, g, lw);
+    compute_weights<D, Shape, false>(grid, origin, view.grid_position, reading(view.half_width), g,
+                                     lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;
     if (s.average_cells) store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
@@ -48,24 +49,21 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
       patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
 
     if constexpr (T::strain) {
-      const Pack trace = store_gradient<Frame, Configuration>(view, n, r, s.dt, g);
+      const Pack trace = store_gradient<Frame, Configuration, T::ended>(view, n, r, s.dt, g);
       view.extra_dilatation.set(
           g, trace);  // tr L for now; average_dilatation() turns it into the increment
       if (s.average_cells) cells.add(cell, view.mass(g) / view.density(g), trace);
-      if constexpr (Shape::has_width && !Configuration::fixed) {
-        WriteView width{const_cast<double*>(view.half_width.base), view.half_width.stride};
-        for (int a = 0; a < D; ++a)
-          width.set(g, a, view.half_width(g, a) * fma(Pack(s.dt), n.G[a][a], Pack(1.0)));
-      }
+      if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
     }
     if constexpr (T::velocity || T::move || T::keep) {
       move_points<Frame, Configuration, Part>(view, n, s, g, sums);
     }
+    if constexpr (T::velocity && Affine) carry_gradient<Frame>(view, n, lw, g);
     if constexpr (T::last) {
-      finish_velocity<Frame, Affine>(view, n, lw, 0.25 * grid.h * grid.h, g, sums);
+      sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
       unsigned gone = 0;
       if constexpr (!Configuration::fixed)
-        gone = bits(left_block<D>(grid, origin, view.grid_position, g) &
+        gone = bits(left_block<D>(s, origin, view.grid_position, g) &
                     first_lanes(patch.count - kLanes * g));
       w.leavers[g] = static_cast<unsigned char>(gone);
     }

@@ -8,6 +8,8 @@
 /// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the
 /// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-. Two-dimensional
 /// frames leave index 2 unused.
+#include <array>
+
 #include "krater/grid/blocks.hpp"
 #include "krater/materials/stage.hpp"
 #include "krater/step/pressure_nodes.hpp"
@@ -24,6 +26,7 @@ struct PointColumns {
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
   int removed = -1;  ///< `failed` where failure takes points out of the computation
   int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
+  int domain = -1, deformation = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
       local_rate = -1;        ///< local record
   int local_correction = -1;  ///< of a fluid, whose pressure is integrated on the grid
@@ -44,6 +47,7 @@ struct SweepSettings {
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18
   const double* pressure_nodes = nullptr;  ///< second records of all node blocks; none: no fluid
+  std::array<double, 3> first{}, last{};   ///< where the domain ends, storage coordinates
 };
 
 struct MomentumSettings {

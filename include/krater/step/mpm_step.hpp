@@ -5,8 +5,8 @@
 ///   particles_to_grid -> fold symmetry planes -> momentum -> contact -> walls ->
 ///   grid_to_particles (+ stresses) -> migrate.
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
-/// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
-/// (Hammerquist & Nairn 2017) before the gather.
+/// the projection. usf: stress from v- first, of the motion of the step before. xpic(m): grid
+/// velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
 #include <initializer_list>
 #include <limits>
 #include <memory>
@@ -65,6 +65,8 @@ class MpmStep {
   const TimeStepLimit& limit() const { return limit_; }  ///< found by the last step
   /// Call after points were added or read from a checkpoint: links, memory, padding.
   void relink();
+  /// The step taken last, after a restart [s].
+  void set_last_step(double dt) { last_step_ = dt; }
   /// Smallest mass of a point, once for all [kg].
   void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-12 * m; }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
@@ -76,9 +78,8 @@ class MpmStep {
   };
   void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                          double dt);
-  /// `most_cells`: dt is halved while dv alone would move a node that holds material by more.
-  GridEnergy momentum(double& dt, double force_share,
-                      double most_cells = std::numeric_limits<double>::infinity());
+  /// Forces act over `force_share` dt; dt is halved while dv alone would move material too far.
+  GridEnergy momentum(double& dt, double force_share);
   struct Constraints {
     BoundaryWork walls;
     ContactWork contact;
@@ -90,9 +91,10 @@ class MpmStep {
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
   void book(const Audit::StepEnergies& energies, const Constraints& constraints);
-  void halve_until_safe(double& dt, double max_change, double most_cells);
+  void halve_until_safe(double& dt, double max_change);
   void watch_energy(const GridEnergy& grid, const Constraints& c) const;
   void name_limit(Patch& patch) const;
+  void account_folds(Constraints& constraints, double dt) const;
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
   bool may_scatter_ahead(GatherPart part) const;
@@ -143,6 +145,7 @@ class MpmStep {
   MomentumSettings node_settings_;
   std::vector<std::size_t> boundary_blocks_;
   TimeStepLimit limit_;
+  double last_step_ = 0;  ///< usf: strains are those of the step before [s]
   AlignedBuffer zeros_, filtered_;
   AlignedBuffer pressure_nodes_;  ///< second records of all nodes (step/pressure_nodes.hpp)
   std::vector<std::size_t> fluid_patches_, fluid_blocks_;

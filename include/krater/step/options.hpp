@@ -20,9 +20,19 @@ enum class BoundaryKind { open, symmetry, wall, sticky, velocity };
 struct Boundary {
   BoundaryKind kind = BoundaryKind::open;
   double friction = 0;  ///< wall: Coulomb coefficient
-  Triple velocity{};    ///< kind velocity: prescribed velocity of the nodes on and beyond the plane
-                        ///< [m/s]
+  Triple velocity{};    ///< kind velocity: of the plane [m/s]
   std::string where;
+
+  bool closed() const { return kind != BoundaryKind::open; }  ///< points do not leave here
+  /// What is beyond is the image of what is inside: the grid's sums are folded before the forces.
+  bool folds() const { return kind == BoundaryKind::symmetry || kind == BoundaryKind::sticky; }
+  /// A body of its own that pushes and does not pull: after the momentum update.
+  bool pushes() const { return kind == BoundaryKind::wall || kind == BoundaryKind::velocity; }
+  bool drives() const { return kind == BoundaryKind::velocity; }  ///< moves material by itself
+  /// The plane itself moves, along its normal `axis`.
+  bool travels(int axis) const { return drives() && velocity[static_cast<unsigned>(axis)] != 0; }
+  /// The domain ends here for good: fillings and sections may be continued by their images.
+  bool mirrors(int axis) const { return closed() && !travels(axis); }
 };
 
 struct MethodOptions {
@@ -34,7 +44,7 @@ struct MethodOptions {
   bool stagger = true;
   double jitter = 0;  ///< fraction of the point spacing
   unsigned seed = 1;
-  bool cell_averaging = true;                ///< theory 18
+  bool cell_averaging = true;  ///< theory 18
   GridPressure grid_pressure = GridPressure::fluids;
   double flip_fraction = 0.99;               ///< TFLIP alpha
   bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
