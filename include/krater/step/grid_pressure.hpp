@@ -4,7 +4,7 @@
 /// Pressure of fluids and soft solids, integrated over the cells of the grid instead of over the
 /// points. Points that left their lattice integrate a uniform pressure to a force g_i = sum V grad
 /// S that is not zero, and points that follow it strain: sum V tr L = dt p sum g_i^2/m_i > 0 in
-/// every step, whatever the pattern . A solid resists, a fluid drifts without
+/// every step, whatever the pattern. A solid resists, a fluid drifts without
 /// end. With the means of the points at the nodes, P_j = sum S V (p + q) / V_j, V_j = sum S V,
 /// and P_h = sum N_j P_j, the smooth part of the pressure is integrated exactly, and the points
 /// keep what they add to it:
