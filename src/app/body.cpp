@@ -17,6 +17,10 @@ namespace {
 
 constexpr const char* kMethod = "method";
 
+// Shear modulus over bulk modulus up to which a solid is soft: its strength does not hold the
+// points against what their quadrature makes of the pressure.
+constexpr double kSoft = 0.01;
+
 bool carries_affine(Transfer t) { return t == Transfer::tflip || t == Transfer::apic; }
 
 bool wants(const Scene& scene, const FieldInfo& field) {
@@ -46,6 +50,7 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   }
   declare_method_columns(scene);
   add_stages(factory);
+  if (pressure_on_grid(scene)) layout_.local_output<field::DilatationCorrection>(kMethod);
   layout_.local_input<field::SignalSpeed>(kMethod);
   layout_.local_input<field::DilatationRate>(kMethod);
   layout_.check();
@@ -81,6 +86,16 @@ void Body::declare_method_columns(const Scene& scene) {
     layout_.state<field::DeformationGradient>(0, kMethod);
   layout_.local_output<field::StepGradient>(kMethod);
   layout_.local_output<field::ExtraDilatation>(kMethod);
+}
+
+bool Body::pressure_on_grid(const Scene& scene) const {
+  const Column* c = layout_.find(field::SoundSpeed::info.name);
+  if (c == nullptr || scene.method.reference != Reference::current) return false;
+  if (scene.method.grid_pressure != GridPressure::fluids)
+    return scene.method.grid_pressure == GridPressure::all;
+  if (scene.contact.active) return false;  // a joint moves too much of a light node (src/README.md)
+  const double bulk = material_->density * c->initial * c->initial;
+  return !material_->strength || material_->shear_modulus < kSoft * bulk;
 }
 
 /// What the scatter and the motion as a whole need; no stress, no law.
@@ -139,6 +154,7 @@ BodyKernelData Body::kernel_data() const {
   c.grid_velocity = state(field::GridVelocity::info);
   c.local_gradient = local(field::StepGradient::info);
   c.local_dilatation = local(field::ExtraDilatation::info);
+  c.local_correction = local(field::DilatationCorrection::info);
   c.local_signal = local(field::SignalSpeed::info);
   c.local_rate = local(field::DilatationRate::info);
   data.stages = stage_pointers_.data();

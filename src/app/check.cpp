@@ -64,6 +64,10 @@ void print_body(const Simulation& sim, const Body& body, int index) {
   print_shape(sim.scene(), body);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
+  if (!body.options().rigid())
+    fmt::print("\n  pressure: {}", body.pressure_on_grid(sim.scene())
+                                       ? "integrated on the grid (a fluid, or a soft solid)"
+                                       : "integrated over the points");
   fmt::print("\n  columns ({} bytes per point):", body.layout().stride());
   for (const Column& c : body.layout().columns())
     fmt::print(" {}{}", c.field->name, c.components > 1 ? fmt::format("[{}]", c.components) : "");

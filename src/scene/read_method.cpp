@@ -130,6 +130,10 @@ Node read_method(const Node* node, Reading& reading) {
   method.jitter = block.number(kJitter);
   method.seed = static_cast<unsigned>(block.integer("seed", 0, 1'000'000'000, 1));
   method.cell_averaging = block.flag("cell_averaging", method.cell_averaging);
+  method.grid_pressure = block.choice<GridPressure>(
+      "grid_pressure",
+      {{"fluids", GridPressure::fluids}, {"none", GridPressure::none}, {"all", GridPressure::all}},
+      method.grid_pressure);
   method.flip_fraction = block.number(kFlip);
   method.dormant_blocks = block.flag("dormant_blocks", method.dormant_blocks);
   return block.finish();

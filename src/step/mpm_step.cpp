@@ -14,6 +14,11 @@ namespace {
 // a cell.
 constexpr double kMaxShare = 0.3;
 
+bool strains(GatherPart part) {
+  return part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
+         part != GatherPart::keep_only;
+}
+
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
     case Transfer::tflip:
@@ -156,13 +161,14 @@ SweepSettings MpmStep::settings(double dt) const {
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
   s.average_cells = method_.cell_averaging;
+  s.pressure_nodes = pressure_nodes_.data();
   return s;
 }
 
 SweepScratch MpmStep::scratch() {
   ThreadMemory& m = memory_[static_cast<unsigned>(thread_index())];
-  return {m.halo.data(),      m.local.data(),   m.cells.data(),
-          m.pressures.data(), m.leavers.data(), zeros_.data()};
+  return {m.halo.data(),      m.pressure_halo.data(), m.local.data(), m.cells.data(),
+          m.pressures.data(), m.leavers.data(),       zeros_.data()};
 }
 
 void MpmStep::relink() {
@@ -171,6 +177,7 @@ void MpmStep::relink() {
   boundary_blocks_.clear();
   for (std::size_t n = 0; n < grid_.node_blocks.size(); ++n)
     if (grid_.node_blocks[n].at_boundary) boundary_blocks_.push_back(n);
+  relink_fluids();
   provide_memory();
 }
 
@@ -182,6 +189,9 @@ void MpmStep::provide_memory() {
   memory_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
   for (ThreadMemory& m : memory_) {
     m.halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) * kNodeDoubles);
+    if (!fluid_patches_.empty())
+      m.pressure_halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) *
+                              kNodeDoubles);
     m.cells.reserve(2 * kBlockNodes);
     m.local.reserve(static_cast<std::size_t>(groups) * static_cast<std::size_t>(local));
     m.pressures.reserve(static_cast<std::size_t>(groups) * kLanes);
@@ -206,12 +216,20 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
 MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
+  const bool fluids = !fluid_patches_.empty();
   for_each(grid_.node_blocks.size(), [&](std::size_t n) {
     NodeBlock& block = grid_.node_blocks[n];
     if (asleep(block)) return;
     kernels_.sum_tiles(grid_, block);
-    if (!block.at_boundary) kernels_.momentum(block, s);
+    if (!block.at_boundary && !fluids) kernels_.momentum(block, s);
   });
+  if (fluids) {
+    if (force_share > 0 || method_.update == Update::usf) collect_pressure(settings(dt));
+    if (force_share > 0) add_pressure_force(settings(dt));
+    for_each(grid_.node_blocks.size(), [&](std::size_t n) {
+      if (!grid_.node_blocks[n].at_boundary) kernels_.momentum(grid_.node_blocks[n], s);
+    });
+  }
   lap(Phase::nodes);
   boundary_.fold();
   for_each(boundary_blocks_.size(),
@@ -258,6 +276,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
   if (moves && rigid_.any()) rigid_.finish(grid_, dt);
+  if (!fluid_patches_.empty() && strains(part)) correct_dilatation(s);
   for_each(grid_.patches.size(), [&](std::size_t p) {
     const SweepScratch w = scratch();
     Patch& patch = grid_.patches[p];

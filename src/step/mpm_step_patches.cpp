@@ -31,11 +31,12 @@ bool MpmStep::may_sleep(GatherPart part) const {
   const bool loaded = std::any_of(bodies_.begin(), bodies_.end(), [](const BodyKernelData& b) {
     return b.columns.body_acceleration >= 0;
   });
-  return method_.dormant_blocks && part == GatherPart::all && !loaded && !boundary_.drives();
+  return method_.dormant_blocks && part == GatherPart::all && !loaded && !boundary_.drives() &&
+         fluid_patches_.empty();
 }
 
 bool MpmStep::asleep(const NodeBlock& block) const {
-  if (!block.inert || block.at_boundary) return false;
+  if (!block.inert || block.at_boundary || !fluid_patches_.empty()) return false;
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
     const int p = grid_.tile_refs[static_cast<std::size_t>(t)].patch;
     if (!grid_.patches[static_cast<std::size_t>(p)].tile_current) return false;

@@ -32,6 +32,8 @@ class Body {
   double thickness() const { return thickness_; }
   double q_lin() const { return q_lin_; }
   double initial_sound_speed() const { return sound_speed_; }  ///< longitudinal, undeformed [m/s]
+  /// The step integrates the pressure on the grid (step/grid_pressure.hpp): fluids, soft solids.
+  bool pressure_on_grid(const Scene& scene) const;
   bool degrades() const { return degrades_; }  ///< damage weakens the stress, s = (1 - phi) s~
   BodyKernelData kernel_data() const;
 

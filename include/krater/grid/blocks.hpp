@@ -81,6 +81,8 @@ struct Patch {
   AlignedBuffer records;             ///< lane groups of the body's layout
   AlignedBuffer tile;                ///< tile_nodes * kNodeDoubles
   AlignedBuffer beta;                ///< per cell: 1 averaged .. 0 shock
+  AlignedBuffer pressure_tile;       ///< of a fluid, as long as `tile`, then a weight per cell
+  bool owns_cells = false;           ///< the first fluid of its field in its block
   std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim, filled by rebuild
   std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
   bool settled = false;       ///< the last gather found everything at rest and changed nothing

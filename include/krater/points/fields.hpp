@@ -76,6 +76,8 @@ KRATER_FIELD(StepGradient, "step_gradient", "1", 9,
              "dt L over tensor axes, row-major; f = I + dt L maps the step");
 KRATER_FIELD(ExtraDilatation, "extra_dilatation", "1", 1,
              "dt (cell-averaged - own) tr L, zero without averaging");
+KRATER_FIELD(DilatationCorrection, "dilatation_correction", "1/s", 1,
+             "what a fluid's pressure on the grid adds to tr L");
 KRATER_FIELD(StrainStep, "strain_step", "1", 6,
              "sym H, H = (f - I)[(f + I)/2]^-1: strain increment of the step");
 KRATER_FIELD(DilatationRate, "dilatation_rate", "1/s", 1,

@@ -59,6 +59,12 @@ class BoundarySet {
   BoundaryWork constrain() const;
   /// Give ghosts the mirrored values the gather reads.
   void mirror() const;
+  /// Call call(ghost, inner node) for each column of the planes that are not open.
+  template <class Call>
+  void for_each_mirror(const Call& call) const {
+    for (const Plane& plane : planes_)
+      for (const Column& c : plane.columns) call(c.ghost, c.inner);
+  }
   /// Some plane moves nodes by itself.
   bool drives() const;
   bool is_open(int axis, int side) const {

@@ -48,16 +48,18 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
 KRATER_FORCE_INLINE ReadView reading(WriteView v) { return {v.base, v.stride}; }
 
 /// Copy the tile of nodes around a block: the block itself and its neighbours above.
+/// `nodes`: records of all node blocks, one after the other.
 template <int Dim>
-void load_halo(const BlockGrid& grid, const Patch& patch, double* halo) {
+void load_halo(const double* nodes, const Patch& patch, double* halo) {
   constexpr int E = block_edge(Dim), T = tile_edge(Dim), rows = Dim == 3 ? T : 1;
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < T; ++j)
       for (int high = 0; high < 2; ++high) {
         const int corner = Dim == 3 ? (i / E) + 2 * (j / E) + 4 * high : (j / E) + 2 * high;
-        const NodeBlock& block = grid.node_blocks[static_cast<unsigned>(
-            patch.node_blocks[static_cast<unsigned>(corner)])];
-        const double* from = block.nodes + kNodeDoubles * (((i % E) * E + j % E) * E);
+        const double* block =
+            nodes + static_cast<std::size_t>(patch.node_blocks[static_cast<unsigned>(corner)]) *
+                        kBlockNodes * kNodeDoubles;
+        const double* from = block + kNodeDoubles * (((i % E) * E + j % E) * E);
         double* to = halo + kNodeDoubles * ((i * T + j) * T + E * high);
         for (int k = 0; k < (high != 0 ? T - E : E); ++k) store(to + 8 * k, load(from + 8 * k));
       }

@@ -4,7 +4,8 @@
 /// The two passes of the gather over one patch: first all velocity gradients (the cell averages
 /// need them), then the constitutive stages on runs of a few lane groups, so that their local
 /// records stay in the first-level cache.
-#include "krater/step/gather.hpp"
+#include "krater/materials/batch_access.hpp"
+#include "krater/step/grid_pressure.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -87,6 +88,19 @@ KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSetti
   }
 }
 
+/// The volume of a fluid changes by what flows, det f + dt (tr_p - tr L): the extra dilatation a of
+/// det f (1 + a/2)/(1 - a/2).
+KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& c,
+                                        const SweepSettings& s, const SweepScratch& w,
+                                        const GatherViews& view) {
+  const ReadView correction{w.local + c.local_correction, c.local_stride};
+  for (int g = 0; g < patch.groups(); ++g) {
+    const Pack change = fma(Pack(s.dt), correction(g), view.extra_dilatation(g));
+    const Pack j = det_minus_one(load_mat3(reading(view.step_gradient), g)) + 1.0;
+    view.extra_dilatation.set(g, change / fma(Pack(0.5), change, j));
+  }
+}
+
 /// Second pass: constitutive update.
 template <int Dim, class Configuration>
 void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
@@ -119,14 +133,20 @@ void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& bod
                   const SweepSettings& s, const SweepScratch& w) {
   constexpr int D = Frame::dim;
   using T = PartTraits<Part>;
-  load_halo<D>(grid, patch, w.halo);
+  load_halo<D>(grid.node_blocks.front().nodes, patch, w.halo);
   const GatherViews view = make_views(patch, body.columns, w);
   const CellSums cells{w.cells, w.cells + kBlockNodes};
   if (s.average_cells) cells.clear();
+  const bool fluid = T::strain && body.columns.local_correction >= 0;
+  if (fluid) {  // with the weights of the force, before the points move
+    load_halo<D>(s.pressure_nodes, patch, w.pressure_halo);
+    correct_dilatation(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
+  }
   GatherSums sums;
   gather_nodes<Frame, Shape, Affine, Configuration, Part>(patch, s, w, view, cells, sums);
   if (T::strain && patch.result.fault.kind == FaultKind::none) {
     average_dilatation(patch, s, w, view, cells);
+    if (fluid) add_correction(patch, body.columns, s, w, view);
     run_stages<D, Configuration>(patch, body, s, w, view, sums);
     patch.result.internal = sum(sums.internal);
   }

@@ -10,6 +10,7 @@
 /// frames leave index 2 unused.
 #include "krater/grid/blocks.hpp"
 #include "krater/materials/stage.hpp"
+#include "krater/step/pressure_nodes.hpp"
 
 namespace krater {
 
@@ -24,7 +25,8 @@ struct PointColumns {
   int removed = -1;  ///< `failed` where failure takes points out of the computation
   int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
-      local_rate = -1;  ///< local record
+      local_rate = -1;        ///< local record
+  int local_correction = -1;  ///< of a fluid, whose pressure is integrated on the grid
 };
 
 /// One body as the kernels see it.
@@ -41,6 +43,7 @@ struct SweepSettings {
   double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18
+  const double* pressure_nodes = nullptr;  ///< second records of all node blocks; none: no fluid
 };
 
 struct MomentumSettings {
@@ -53,6 +56,7 @@ struct MomentumSettings {
 /// Memory of one thread.
 struct SweepScratch {
   double* halo;            ///< tile_nodes * kNodeDoubles
+  double* pressure_halo;   ///< the same, of the second records
   double* local;           ///< groups of a patch * local stride
   double* cells;           ///< 2 * kBlockNodes: sum and mean of each cell
   double* pressures;       ///< 8 per group: the cell of each point, to look its mean up
@@ -87,6 +91,9 @@ class Kernels {
   /// Velocities, positions, stresses of one patch from the nodes.
   virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
                       const SweepSettings& s, const SweepScratch& w, GatherPart part) const = 0;
+  /// Pressure of a fluid on the grid: one sweep over a patch, from the nodes into its second tile.
+  virtual void pressure(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+                        const SweepSettings& s, const SweepScratch& w, PressurePart part) const = 0;
 };
 
 enum class KernelShape : int { quadratic_bspline, gimp, linear };

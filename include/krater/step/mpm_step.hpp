@@ -7,6 +7,7 @@
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
 /// the projection. usf: stress from v- first. xpic(m): grid velocity filtered m - 1 times
 /// (Hammerquist & Nairn 2017) before the gather.
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -85,6 +86,17 @@ class MpmStep {
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
   std::array<double, 3> filter_velocity();
+  void relink_fluids();
+  double* second_record(double* node);
+  void sweep_fluids(PressurePart part, const SweepSettings& s);
+  void sum_fluid_tiles(int first, int last);
+  void fold_fluids(std::initializer_list<int> slots);
+  void mirror_fluids(std::initializer_list<int> slots);
+  template <class Work>
+  void for_fluid_nodes(const Work& work);
+  void collect_pressure(const SweepSettings& s);
+  void add_pressure_force(const SweepSettings& s);
+  void correct_dilatation(const SweepSettings& s);
   void grid_to_particles(GatherPart part, double dt);
   void combine_patches(bool forces_worked);
   void provide_memory();
@@ -118,9 +130,11 @@ class MpmStep {
   double max_rate_ = 0;
   int limiting_patch_ = -1;
   AlignedBuffer zeros_, filtered_;
+  AlignedBuffer pressure_nodes_;  ///< second records of all nodes (step/pressure_nodes.hpp)
+  std::vector<std::size_t> fluid_patches_, fluid_blocks_;
   std::vector<Removed> removed_;
   struct ThreadMemory {
-    AlignedBuffer halo, local, cells, pressures;
+    AlignedBuffer halo, pressure_halo, local, cells, pressures;
     std::vector<unsigned char> leavers;
     double scatter_seconds = 0;  ///< of the scatters ahead in one sweep
   };

@@ -14,6 +14,7 @@ enum class Shape { quadratic_bspline, gimp, linear };
 enum class Transfer { tflip, flip, apic, xpic };
 enum class Update { usl, musl, usf };
 enum class Reference { current, initial, adaptive };
+enum class GridPressure { fluids, none, all };  ///< bodies of step/grid_pressure.hpp
 enum class BoundaryKind { open, symmetry, wall, sticky, velocity };
 
 struct Boundary {
@@ -33,7 +34,8 @@ struct MethodOptions {
   bool stagger = true;
   double jitter = 0;  ///< fraction of the point spacing
   unsigned seed = 1;
-  bool cell_averaging = true;                ///< theory 18
+  bool cell_averaging = true;  ///< theory 18
+  GridPressure grid_pressure = GridPressure::fluids;
   double flip_fraction = 0.99;               ///< TFLIP alpha
   bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
   Reference reference = Reference::current;  ///< configuration of the weights (theory 3)

@@ -41,6 +41,20 @@ class TransferKernels final : public Kernels {
         return run<GatherPart::filter_move>(patch, grid, body, s, w);
     }
   }
+  void pressure(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+                const SweepSettings& s, const SweepScratch& w, PressurePart part) const override {
+    const PressureSweep<Frame, Shape> sweep{patch, body.columns, s, w};
+    load_halo<Frame::dim>(s.pressure_nodes, patch, w.pressure_halo);
+    switch (part) {
+      case PressurePart::collect:
+        return collect_pressure(sweep);
+      case PressurePart::force:
+        return force_of_pressure(sweep);
+      case PressurePart::dilatation:
+        load_halo<Frame::dim>(grid.node_blocks.front().nodes, patch, w.halo);
+        return sum_dilatation(sweep);
+    }
+  }
 
  private:
   template <GatherPart Part>
