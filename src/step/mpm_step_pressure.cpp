@@ -33,7 +33,8 @@ bool is_folded_ghost(const GridGeometry& g, const BoundaryConditions& conditions
 }  // namespace
 
 void MpmStep::relink_fluids() {
-  fluid_patches_.clear(), fluid_blocks_.clear();
+  fluid_patches_.clear();
+  fluid_blocks_.clear();
   std::vector<bool> holds(grid_.node_blocks.size());
   const int dimension = grid_.geometry().dimension;
   for (std::size_t p = 0; p < grid_.patches.size(); ++p) {

@@ -48,9 +48,12 @@ KRATER_FORCE_INLINE CellRule cell_rule(int middle, int cells, double inv_h) {
   for (int q = 0; q < 2; ++q) {
     const double t = 0.5 * (low + high) + (q == 0 ? -gauss : gauss) * 0.5 * (high - low);
     out.at[q] = t;
-    out.N[q][0] = 0.5 * (0.5 - t) * (0.5 - t), out.d[q][0] = -(0.5 - t) * inv_h;
-    out.N[q][1] = 0.75 - t * t, out.d[q][1] = -2 * t * inv_h;
-    out.N[q][2] = 0.5 * (0.5 + t) * (0.5 + t), out.d[q][2] = (0.5 + t) * inv_h;
+    out.N[q][0] = 0.5 * (0.5 - t) * (0.5 - t);
+    out.d[q][0] = -(0.5 - t) * inv_h;
+    out.N[q][1] = 0.75 - t * t;
+    out.d[q][1] = -2 * t * inv_h;
+    out.N[q][2] = 0.5 * (0.5 + t) * (0.5 + t);
+    out.d[q][2] = (0.5 + t) * inv_h;
   }
   return out;
 }
@@ -100,7 +103,8 @@ KRATER_FORCE_INLINE void for_gauss_points(const GridGeometry& grid, const PatchO
       double value[D], slope[D];
       for (int a = D - 1, rest = n; a >= 0; --a, rest /= 3) {
         const int q = (point >> a) & 1;
-        value[a] = rule[a].N[q][rest % 3], slope[a] = rule[a].d[q][rest % 3];
+        value[a] = rule[a].N[q][rest % 3];
+        slope[a] = rule[a].d[q][rest % 3];
       }
       N[n] = 1;
       for (int a = 0; a < D; ++a) {
@@ -143,8 +147,10 @@ void weigh_cells(const Patch& patch, const GridGeometry& grid, const double* hal
   const PatchOrigin origin = origin_of<D>(patch);
   double length[3][T];
   double cell_volume = 1;
-  for (int a = 0; a < D; ++a)
-    node_lengths<Frame>(grid, origin.first[a], a, length[a]), cell_volume *= grid.h;
+  for (int a = 0; a < D; ++a) {
+    node_lengths<Frame>(grid, origin.first[a], a, length[a]);
+    cell_volume *= grid.h;
+  }
   for (int c = 0; c < kBlockNodes; ++c) {
     const CellPlace<D> place{c};
     double weight = 1;
@@ -262,7 +268,8 @@ void force_of_pressure(const PressureSweep<Frame, Shape>& sweep) {
           double P = 0, share = 0;
           for (int n = 0; n < power_of_three<D>; ++n) {
             const double* node = halo + kNodeDoubles * (place.tile + node_offset<D>(n));
-            P += N[n] * node[kNodePressure], share += N[n] * node[kNodeShare];
+            P += N[n] * node[kNodePressure];
+            share += N[n] * node[kNodeShare];
           }
           const double push = part * weight * share * P;
           for (int n = 0; n < power_of_three<D>; ++n) {
