@@ -23,9 +23,9 @@ inline constexpr double light_reach = 3;
 /// Points less than a quarter as full as the body's typical point (the median by mass, so that a
 /// body thinner than a spacing keeps its points) are given, lightest first, to the nearest heavier
 /// one within `reach` (m), mere traces to the nearest anywhere; equally near ones share, which
-/// keeps symmetric bodies symmetric. Measure and centroid (r: of the area, lattice.hpp) are kept exactly,
-/// unless the centroid lies outside of the solid: then the point that takes stays where it is.
-/// `full[n]`: fullness of points[n]. Returns how many were given away.
+/// keeps symmetric bodies symmetric. Measure and centroid (r: of the area, lattice.hpp) are kept
+/// exactly, unless the centroid lies outside of the solid: then the point that takes stays where it
+/// is. `full[n]`: fullness of points[n]. Returns how many were given away.
 std::size_t give_light_points(std::vector<SeedPoint>& points, std::vector<double> full,
                               const Solid& solid, Frame frame, double reach);
 
