@@ -14,7 +14,7 @@ constexpr const char* kCard =
     "damage: {lemaitre_energy: {S: 1 MPa, phi_c: 0.4}, coupling: rate}\n";
 
 /// A scene whose steel has the card and the block; returns its file.
-std::string scene(const ScratchFolder& folder, const std::string& block,
+std::string scene_with(const ScratchFolder& folder, const std::string& block,
                   const std::string& card = kCard) {
   folder.write("mild.yaml", card);
   return folder.write("scene.yaml",
@@ -24,7 +24,7 @@ std::string scene(const ScratchFolder& folder, const std::string& block,
 
 MaterialOptions steel(const ScratchFolder& folder, const std::string& block,
                       const std::string& card = kCard) {
-  return read_scene(scene(folder, block, card)).materials.at(0);
+  return read_scene(scene_with(folder, block, card)).materials.at(0);
 }
 
 void refuses(const std::string& file, const std::vector<const char*>& parts) {
@@ -63,7 +63,7 @@ TEST_SUITE("unit") {
     CHECK(over.coupling == Coupling::rate);
     CHECK(over.spall_strength == 1e9);
     // From --set, and the resolved scene reads back without the card.
-    const std::string file = scene(folder, "");
+    const std::string file = scene_with(folder, "");
     const Scene set = read_scene(file, {"materials.steel.damage=card"});
     REQUIRE(set.materials.at(0).damage);
     const Scene again = read_scene(folder.write("resolved.yaml", set.resolved));
@@ -73,7 +73,7 @@ TEST_SUITE("unit") {
   TEST_CASE("card effects: asked for where there is none: what, where, and which cards have it") {
     const ScratchFolder folder;
     folder.write("materials/ductile.yaml", kCard);
-    refuses(scene(folder, "    damage: card\n", "density: 7800\n"),
+    refuses(scene_with(folder, "    damage: card\n", "density: 7800\n"),
             {"scene.yaml:", "materials.steel.damage: the card './mild.yaml' has no damage",
              "cards that have it: ", "ductile"});
     refuses(folder.write("bare.yaml", replaced(small_scene(), "    viscosity: {q_lin: 0.3}\n",
