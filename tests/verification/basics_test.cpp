@@ -212,8 +212,8 @@ class Rig {
     local_[p].reserve(groups * static_cast<std::size_t>(data_.columns.local_stride));
     pressures_.reserve(groups * kLanes);
     leavers_.resize(std::max(leavers_.size(), groups));
-    return {halo_.data(),      local_[p].data(), cells_.data(),
-            pressures_.data(), leavers_.data(),  zeros_.data()};
+    return {halo_.data(),      nullptr,         local_[p].data(), cells_.data(),
+            pressures_.data(), leavers_.data(), zeros_.data()};  // no fluid
   }
 
   Run& run_;
