@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -56,6 +57,9 @@ int dispatch(const Commands& commands, const RunOptions& options, const std::str
   } catch (const std::bad_alloc&) {
     say("krater: not enough memory for this scene: use a larger grid.cell or fewer "
         "points_per_direction");
+    return kBadInput;
+  } catch (const std::system_error& e) {  // of fmt::print
+    say(fmt::format("krater: standard output cannot be written: {}", e.what()));
     return kBadInput;
   } catch (const std::exception& e) {
     say(fmt::format("krater: {}", e.what()));

@@ -190,8 +190,7 @@ class Rig {
   }
   void gather() {
     for (std::size_t p = 0; p < grid().patches.size(); ++p)
-      kernels_->gather(grid().patches[p], grid(), data_, settings_, scratch(p),
-                       GatherPart::strain_only);
+      kernels_->gather(grid().patches[p], grid(), data_, settings_, scratch(p), GatherPart::all);
   }
   /// dt L of a point after the gather, tensor axes.
   double step_gradient(int patch, int point, int i, int a) const {

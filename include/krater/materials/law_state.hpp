@@ -12,11 +12,17 @@
 #pragma once
 
 #include <array>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 
 #include "krater/points/batch.hpp"
+
+namespace krater {
+
+/// Throws std::logic_error where the layout has the column already (stage.cpp: hot code holds no
+/// messages).
+void require_unowned(const Layout& layout, const FieldInfo& field, const char* law);
+
+}  // namespace krater
 
 namespace krater::inline KRATER_ISA {
 
@@ -72,9 +78,7 @@ class StateOf<Law> {
     const std::array<double, count> initial = law.initial_state();
     unsigned k = 0;
     const auto one = [&]<class Column>() {
-      if (layout.find(Column::info.name) != nullptr)
-        throw std::logic_error(std::string{Law::name} + ": the column '" + Column::info.name +
-                               "' belongs to another law already, or is declared twice");
+      require_unowned(layout, Column::info, Law::name);
       offsets_[k] = layout.state<Column>(initial[k], Law::name).offset;
       ++k;
     };

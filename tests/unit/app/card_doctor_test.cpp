@@ -63,7 +63,10 @@ TEST_SUITE("unit") {
       const MaterialOptions material = read_card(path_of(name));
       const bool from_memory =
           text.find("from memory") != std::string::npos || text.find("verify") != std::string::npos;
-      CHECK(from_memory == !read_card(path_of(name), ", damage: card").unsourced.empty());
+      // What a card leaves unsourced may stand in its damage, which counts when asked for.
+      const bool has_damage = text.find("\ndamage:") != std::string::npos;
+      const auto whole = read_card(path_of(name), has_damage ? ", damage: card" : "");
+      CHECK(from_memory == !whole.unsourced.empty());
       const auto doubts = doubts_of(material);
       if (!doubts.empty()) CAPTURE(doubts.front());
       const auto expected = known.find(name);

@@ -174,6 +174,7 @@ TEST_SUITE("unit") {
     CHECK(value(count) == 1);
     MeasureOptions hottest = of_kind(MeasureKind::maximum);
     hottest.field = "temperature";
+    hottest.mass_share = 0;  // the single point
     hottest.selection.region[0] = {0, 5 * h};
     CHECK(value(hottest) == 31);
     MeasureOptions nothing = of_kind(MeasureKind::mass);

@@ -144,7 +144,7 @@ TEST_SUITE("unit") {
       p = next, v = volume;
     };
     CHECK(point.value("distension") == Approx(kSolid / kPorous).epsilon(1e-15));
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 4000; ++i) {
       step(1e-4);
       if (p > kElastic && p < kCompact)
         REQUIRE(point.value("distension") == Approx(curve(p)).epsilon(1e-8));
@@ -172,10 +172,11 @@ TEST_SUITE("unit") {
     hot.parameters["energy.c_v"] = 900.0;
     Point warm{hot};
     for (int i = 0; i < 3000; ++i) warm.compress(1e-4);
-    // Far more heat than the isentrope of the solid: the work of closing pores.
+    // More heat than the isentrope of the solid: the work of closing pores, some p_e (alpha_0 - 1)/
+    // rho_s at least, is 11 K here.
     const double isentrope = 294.0 * std::exp(kGamma * (1 - kSolid / warm.value("density")));
     CHECK(warm.value("distension") == 1.0);
-    CHECK(warm.value("temperature") > isentrope + 50.0);
+    CHECK(warm.value("temperature") > isentrope + 11.0);
   }
 
   TEST_CASE("p-alpha: what is wrong is said") {

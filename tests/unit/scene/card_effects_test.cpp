@@ -15,7 +15,7 @@ constexpr const char* kCard =
 
 /// A scene whose steel has the card and the block; returns its file.
 std::string scene_with(const ScratchFolder& folder, const std::string& block,
-                  const std::string& card = kCard) {
+                       const std::string& card = kCard) {
   folder.write("mild.yaml", card);
   return folder.write("scene.yaml",
                       replaced(small_scene(), "    viscosity: {q_lin: 0.3}\n",

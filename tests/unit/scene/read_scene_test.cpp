@@ -201,12 +201,12 @@ TEST_SUITE("unit") {
     text = replaced(text, "{min: [0, 0], max: [10 mm, 20 mm]}",
                     "{min: [0, 0, 0], max: [10 mm, 10 mm, 20 mm]}");
     text = replaced(text, "r_min: axis",
-                    "x_min: symmetry\n    y_min: symmetry\n    y_max: {velocity: [1, 2, 3 m/s]}");
+                    "x_min: symmetry\n    y_min: symmetry\n    y_max: {velocity: [1, -2, 3 m/s]}");
     const Scene scene = read_scene(folder.write("quarter.yaml", text));
     CHECK(scene.grid.boundary[0][0].kind == BoundaryKind::symmetry);
     CHECK(scene.grid.boundary[1][0].kind == BoundaryKind::symmetry);
     CHECK(scene.grid.boundary[1][1].kind == BoundaryKind::velocity);
-    CHECK(scene.grid.boundary[1][1].velocity == Triple{1, 2, 3});
+    CHECK(scene.grid.boundary[1][1].velocity == Triple{1, -2, 3});
     check_fixed_point(scene, folder);
   }
 

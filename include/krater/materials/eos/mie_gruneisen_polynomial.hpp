@@ -2,8 +2,7 @@
 /// \file
 /// p = (1 - gamma mu/2) p_H + gamma rho e,  mu = rho/rho0 - 1 (theory 9, CCF (49)-(51)):
 ///   mu > 0:  p_H = a0 mu + b0 mu^2 + c0 mu^3,  gamma = gamma0 rho0/rho
-///   else:    p_H = g a0 mu,                    gamma = gamma0
-/// g = 1 for rho/rho0 >= 0.8, then falls to 0 where the solid has parted (`cohesion`, split.hpp).
+///   else:    p_H = a0 mu,                      gamma = gamma0
 /// Isentropic modulus by Decision 5: CCF (61)-(62) as printed miss gamma and d gamma/d mu.
 /// e = 0 at rho0, T_ref.
 #pragma once
@@ -47,7 +46,7 @@ struct MieGruneisenPolynomial {
     const Real mu = (rho - rho0) * per_rho0;
     const MaskOf<Real> compressed = mu > Real(0.0);
     const Real eta = mu * (rho0 * v);
-    const Real p_h = select(compressed, hugoniot(mu), cohesion(mu + 1.0).share * (a0 * mu));
+    const Real p_h = select(compressed, hugoniot(mu), a0 * mu);
     // gamma mu is gamma0 eta in compression, gamma0 mu in expansion.
     const Real factor = fnma(Real(0.5 * gamma0), select(compressed, eta, mu), Real(1.0));
     return {factor * p_h, gamma0 * select(compressed, Real(rho0), rho)};
@@ -62,10 +61,7 @@ struct MieGruneisenPolynomial {
     const Real slope = fma(mu, fma(mu, Real(3.0 * cubic), Real(2.0 * b0)), Real(a0));
     const Real compressed = fma(x * fnma(Real(0.5 * gamma0), eta, Real(1.0)), slope,
                                 gamma0 * (fnma(Real(0.5), hugoniot(mu), p) * per_x));
-    const Cohesion<Real> held = cohesion(x);
-    const Real ending = held.by_x * (mu * fnma(Real(0.5 * gamma0), mu, Real(1.0)));
-    const Real expanded = fma(x * a0, fma(held.share, fnma(Real(gamma0), mu, Real(1.0)), ending),
-                              gamma0 * fma(rho, e, p));
+    const Real expanded = fma(x * a0, fnma(Real(gamma0), mu, Real(1.0)), gamma0 * fma(rho, e, p));
     return select(mu > Real(0.0), compressed, expanded);
   }
 

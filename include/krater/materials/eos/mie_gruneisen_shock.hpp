@@ -2,8 +2,7 @@
 /// \file
 /// Mie-Grueneisen about the Hugoniot Us = c0 + S1 up; eta = 1 - rho0/rho, mu = rho/rho0 - 1:
 ///   eta >= 0: p = p_H (1 - Gamma0 eta/2) + Gamma0 rho0 e,  p_H = rho0 c0^2 eta/(1 - S1 eta)^2
-///   eta <  0: p = g rho0 c0^2 mu + Gamma0 rho e                                      Decision 9
-/// g = 1 for rho/rho0 >= 0.8, then falls to 0 where the solid has parted (`cohesion`, split.hpp).
+///   eta <  0: p = rho0 c0^2 mu + Gamma0 rho e                                        Decision 9
 /// Beyond eta_c = 0.8/S1 p_H is continued linearly with its slope there (the pole is at 1/S1) and
 /// counted. Reference: SPEAR (S.36)-(S.41), theory 9; K_s by Decision 5. Gamma rho is constant in
 /// compression; e = 0 at rho0.
@@ -53,8 +52,7 @@ struct MieGruneisenShock {
     const Real eta = mu * (rho0 * v);
     const MaskOf<Real> compressed = mu >= Real(0.0);
     const Real hot = hugoniot(eta).pressure * fnma(Real(0.5 * gamma0), eta, Real(1.0));
-    const Real cold = cohesion(mu + 1.0).share * (modulus * mu);
-    return {select(compressed, hot, cold), gamma0 * select(compressed, Real(rho0), rho)};
+    return {select(compressed, hot, modulus * mu), gamma0 * select(compressed, Real(rho0), rho)};
   }
 
   template <class Real>
@@ -65,9 +63,7 @@ struct MieGruneisenShock {
     const Real at_constant_e = h.slope * fnma(Real(0.5 * gamma0), eta, Real(1.0));
     const Real compressed =
         (rho0 * v) * fma(Real(gamma0), fnma(Real(0.5), h.pressure, p), at_constant_e);
-    const Cohesion<Real> held = cohesion(mu + 1.0);
-    const Real expanded =
-        fma(rho, Real(c0 * c0) * fma(held.by_x, mu, held.share), gamma0 * fma(rho, e, p));
+    const Real expanded = fma(rho, Real(c0 * c0), gamma0 * fma(rho, e, p));
     return select(mu > Real(0.0), compressed, expanded);
   }
 

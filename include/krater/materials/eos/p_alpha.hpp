@@ -130,8 +130,9 @@ struct PAlpha {
         const Real newton = p - rest / slope;
         const MaskOf<Real> inside = (newton > low) & (newton < high);
         const Real next = select(inside, newton, 0.5 * (low + high));
-        active = active & !(abs(next - p) <= enough) & (high - low > enough);
-        p = select(crushing & !solid, next, p);
+        const MaskOf<Real> near = abs(next - p) <= enough;
+        p = select(active, next, p);  // each lane by itself: no bits of its neighbours
+        active = active & !near & (high - low > enough);
       }
       const Real on_curve = min(alpha, law.crush(p).alpha);
       return select(solid, Real(1.0), select(crushing, on_curve, alpha));
