@@ -204,8 +204,11 @@ class EosStage final : public Stage {
     const auto loss = view(batch, loss_);
     const Pack p = view(batch, p_)(g), e = view(batch, e_)(g), work = view(batch, work_)(g);
     Pack tension_loss = loss(g, 0);
-    if constexpr (parts)
-      tension_loss = select(view(batch, failed_)(g) > Pack(0.5), Pack(1.0), tension_loss);
+    if constexpr (parts) {
+      const Pack failed = view(batch, failed_)(g);
+      report(batch, FaultKind::not_finite_state, g, !is_finite(failed));
+      tension_loss = select(failed > Pack(0.5), Pack(1.0), tension_loss);
+    }
     const auto closed = [&](const PressureSplit<Pack>& s) {
       return close_carried(s, p, e, x.dv, work, tension_loss, loss(g, 1), spall_strength_);
     };

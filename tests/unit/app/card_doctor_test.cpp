@@ -150,8 +150,10 @@ TEST_SUITE("unit") {
     const auto says = [&](const std::string& more, const std::string& part) {
       CAPTURE(more);
       const auto doubts = doubts_of(read_card(card, more));
-      REQUIRE(doubts.size() == 1);
-      CHECK(doubts[0].find(part) != std::string::npos);
+      REQUIRE(!doubts.empty());  // its magnitude may be doubted beside it
+      CHECK(std::any_of(doubts.begin(), doubts.end(), [&](const std::string& doubt) {
+        return doubt.find(part) != std::string::npos;
+      }));
     };
     says(", initial_temperature: 2000 K", "starts molten");
     says(", initial_temperature: 600 K", "starts softened");
