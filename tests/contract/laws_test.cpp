@@ -132,7 +132,7 @@ TEST_SUITE("contract") {
             const double e = energy_at_start(eos) + added;
             const double rho = x * eos.rho0, v = 1.0 / rho;
             const double p = pressure(eos, rho, e);
-            // Open: where Tillotson's cold tension fades K_s (negative there, so floored) is 6 % off.
+            // Open: where Tillotson's cold tension fades K_s (negative, so floored) is 6 % off.
             if (std::string{Law::name} == "tillotson" && x < 0.8) continue;
             // de = -p dv to second order, then a central difference of p(rho, e): K = rho dp/drho
             // at constant entropy.

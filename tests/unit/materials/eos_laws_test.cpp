@@ -280,8 +280,8 @@ TEST_SUITE("unit") {
       CHECK(law.bulk_modulus(rho, 1.0 / rho, p, 1e8) > 0.0);
     };
     const double shock[] = {3940.0, 1.489, 2.02}, polynomial[] = {76e9, 128e9, 125e9, 2.0};
-    check(make_law<MieGruneisenShock>(shock, {8930.0, 0.0, 294.0}));
-    check(make_law<MieGruneisenPolynomial>(polynomial, {2700.0, 0.0, 294.0}));
+    check(make_law<MieGruneisenShock>(shock, {8930.0, 0.0, 294.0}), false);  // solids for ever
+    check(make_law<MieGruneisenPolynomial>(polynomial, {2700.0, 0.0, 294.0}), false);
     check(iron());
     check(tnt());
     check(ideal(1.4, 1.2, 1e5));
