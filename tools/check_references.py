@@ -6,7 +6,7 @@ Checked in comments, texts and pages of the whole tree:
   theory 9, theory D9, (9.4) in THEORY.md, Decision 6      an entry of src/THEORY.md
   CCF (7), SPEAR (S.36)                                    in the table of the two papers at its end
   kValley in THEORY.md                                     a constant of the sources
-  step/audit.hpp, `app/material_plan`, `unit/scene/cards`  a file, or a test by the name that ctest gives it
+  kinematics/audit.hpp, `app/material_plan`, `unit/scene/cards`  a file, or a test by the name that ctest gives it
   [text](path#anchor)                                      a file, and a heading in it
 Files of runs (summary.json) and of users (filler.stl) are no references. Prints file:line: message, returns 1 on any.
 """
@@ -32,8 +32,8 @@ FILE = re.compile(r"(?<![\w./*{}<>$-])((?:\.\./)*[\w*][\w*/.-]*\." + ENDINGS + r
 TEST = re.compile(r"(?<![\w./-])((?:unit|contract|verification|scene|style)/[\w/.*-]*\w)")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 QUOTED = re.compile(r"`([^`\n]+)`")
-PLACE = re.compile(r"(?<![\w./<-])((?:tools|inputs|validation|tests|include|src|core|points|grid|geometry|materials|step"
-                   r"|scene|output|app)/[\w/.*-]*\w)")
+PLACE = re.compile(r"(?<![\w./<-])((?:tools|inputs|validation|tests|include|src|core|points|grid|geometry|materials"
+                   r"|contact|kinematics|scene|output|simulation|measure|point_driver|app)/[\w/.*-]*\w)")
 
 # Written by runs, a user's (in capitals, or x), or another program's.
 NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
@@ -147,8 +147,8 @@ class Checker:
         root = self.root
         if "/" not in name:
             return any(fnmatch.fnmatch(n, name) for n in self.names)
-        bases = [path.parent, root, root / "src", root / "include/krater", root / "include", root / "tests",
-                 root / "include/krater/materials", root / "inputs"]
+        bases = [path.parent, root, root / "src", root / "src/kinematics", root / "include/krater", root / "include",
+                 root / "tests", root / "include/krater/materials", root / "include/krater/kinematics", root / "inputs"]
         if "*" in name:
             return any(next(base.glob(name), None) for base in bases)
         return any((base / name).exists() for base in bases)
@@ -226,7 +226,7 @@ def self_test():
         "tests/unit/a_test.cpp": ("\n", 0),
         "tests/tests.cmake": ("add_test(NAME style/x\n", 0),
         "README.md": ("# Head\n[x](src/THEORY.md#2-b) [y](#head) [z](no.md) [w](#none) `tools/no` `style/x` `style/y`\n"
-                      "summary.json resolved.yaml `run tests/unit step/no -o x_out`\n", 6),
+                      "summary.json resolved.yaml `run tests/unit contact/no -o x_out`\n", 6),
     }
     missed = []
     with tempfile.TemporaryDirectory() as folder:

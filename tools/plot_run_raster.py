@@ -3,7 +3,7 @@
 
 A point of a strongly deformed body no longer fills a square about its centre: at the foot of a Taylor rod
 neighbours are more than a cell apart radially and a tenth of one axially. As the measures do
-(src/app/volume_fraction.cpp), the picture shows material where the volume fraction
+(src/measure/volume_fraction.cpp), the picture shows material where the volume fraction
 
   phi(x) = sum_p A_p N((x - x_p) / h) / h^2,   N the quadratic B-spline, A_p = V_p / (2 pi r_p), V_p / thickness,
                                                or V_p N(y_p / h) / h in the section of a 3d body

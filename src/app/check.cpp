@@ -9,13 +9,13 @@
 #include "krater/app/field_doubts.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
-#include "krater/app/measurements.hpp"
 #include "krater/app/run.hpp"
-#include "krater/app/simulation.hpp"
-#include "krater/app/snapshot.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/parallel.hpp"
-#include "krater/geometry/column.hpp"
+#include "krater/geometry/seeds/column.hpp"
+#include "krater/measure/measurements.hpp"
+#include "krater/measure/snapshot.hpp"
+#include "krater/simulation/simulation.hpp"
 
 namespace krater {
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "krater/app/body.hpp"
 #include "krater/core/errors.hpp"
-#include "krater/step/kernel_levels.hpp"
+#include "krater/kinematics/mpm/kernel_levels.hpp"
+#include "krater/simulation/body.hpp"
 
 namespace krater {
 

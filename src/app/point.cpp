@@ -8,15 +8,15 @@
 
 #include <fmt/format.h>
 
-#include "app/point_table.hpp"
 #include "krater/app/folder_lock.hpp"
-#include "krater/app/loading_path.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/kinematics/mpm/kernel_levels.hpp"
+#include "krater/point_driver/loading_path.hpp"
 #include "krater/scene/point.hpp"
-#include "krater/step/kernel_levels.hpp"
+#include "point_driver/point_table.hpp"
 
 namespace krater {
 

@@ -12,13 +12,13 @@
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
 #include "krater/app/machine.hpp"
-#include "krater/app/measurements.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/schedule.hpp"
-#include "krater/app/snapshot.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/measure/measurements.hpp"
+#include "krater/measure/snapshot.hpp"
 #include "krater/scene/compare.hpp"
 
 namespace krater {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "krater/points/layout.hpp"
+
 namespace krater {
 
 namespace {
@@ -23,6 +25,26 @@ constexpr std::array<Offset, 27> plane_offsets = neighbour_offsets(2),
                                  space_offsets = neighbour_offsets(3);
 
 }  // namespace
+
+void copy_point(Patch& patch, int stride, int from, int to) {
+  for (int k = 0; k < stride; k += kLanes)
+    component(patch, stride, k, to) = component(patch, stride, k, from);
+}
+
+void append(Patch& patch, const double* point, int stride) {
+  const int i = patch.count++;
+  patch.settled = patch.tile_current = patch.tile_ahead = patch.steady = false;
+  patch.records.reserve(static_cast<std::size_t>(patch.groups()) *
+                        static_cast<std::size_t>(stride));
+  for (int k = 0; k < stride; k += kLanes) component(patch, stride, k, i) = point[k / kLanes];
+}
+
+void pad(Patch& patch, int stride, int mass_offset) {
+  for (int i = patch.count; i < kLanes * patch.groups(); ++i) {
+    copy_point(patch, stride, patch.count - 1, i);
+    component(patch, stride, mass_offset, i) = 0;
+  }
+}
 
 BlockKey shifted(const BlockKey& key, int slot, int dimension) {
   const Offset& offset =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pressure, and temperature from the energy (compiled once per instruction-set level).
-#include "krater/materials/energy_heating_stage.hpp"
-#include "krater/materials/eos_stage.hpp"
+#include "krater/materials/stages/energy_heating_stage.hpp"
+#include "krater/materials/stages/eos_stage.hpp"
 #include "materials/stage_makers.hpp"
 
 namespace krater::inline KRATER_ISA {

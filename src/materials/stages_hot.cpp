@@ -2,10 +2,10 @@
 // The factory of stages, and those stages that no family of many laws stands behind (compiled once
 // per instruction-set level).
 #include "krater/materials/factories.hpp"
-#include "krater/materials/heating_stage.hpp"
-#include "krater/materials/kinematics_stage.hpp"
-#include "krater/materials/signal_speed_stage.hpp"
-#include "krater/materials/viscosity_stage.hpp"
+#include "krater/materials/stages/heating_stage.hpp"
+#include "krater/materials/stages/kinematics_stage.hpp"
+#include "krater/materials/stages/signal_speed_stage.hpp"
+#include "krater/materials/stages/viscosity_stage.hpp"
 #include "materials/stage_makers.hpp"
 
 namespace krater::inline KRATER_ISA {

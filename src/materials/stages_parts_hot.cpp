@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The deviator in several stages: damage, spall, other rates (compiled once per instruction-set
 // level).
-#include "krater/materials/carried_stage.hpp"
-#include "krater/materials/hyperelastic_stage.hpp"
-#include "krater/materials/return_stage.hpp"
-#include "krater/materials/start_stage.hpp"
-#include "krater/materials/trial_stage.hpp"
+#include "krater/materials/stages/carried_stage.hpp"
+#include "krater/materials/stages/hyperelastic_stage.hpp"
+#include "krater/materials/stages/return_stage.hpp"
+#include "krater/materials/stages/start_stage.hpp"
+#include "krater/materials/stages/trial_stage.hpp"
 #include "materials/stage_makers.hpp"
 
 namespace krater::inline KRATER_ISA {

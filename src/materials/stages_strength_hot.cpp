@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The deviator in one stage: sound material, default rate (compiled once per instruction-set
 // level).
-#include "krater/materials/hyperelastic_stage.hpp"
-#include "krater/materials/strength_stage.hpp"
+#include "krater/materials/stages/hyperelastic_stage.hpp"
+#include "krater/materials/stages/strength_stage.hpp"
 #include "materials/stage_makers.hpp"
 
 namespace krater::inline KRATER_ISA {

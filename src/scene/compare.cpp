@@ -6,8 +6,8 @@
 #include <map>
 #include <string_view>
 
-#include "scene/problems.hpp"
-#include "scene/tree.hpp"
+#include "scene/yaml/problems.hpp"
+#include "scene/yaml/tree.hpp"
 
 namespace krater {
 

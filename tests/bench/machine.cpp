@@ -5,7 +5,7 @@
 
 #include "bench/calibration.hpp"
 #include "krater/core/parallel.hpp"
-#include "krater/step/kernel_levels.hpp"
+#include "krater/kinematics/mpm/kernel_levels.hpp"
 
 /// krater_bench_machine [THREADS]: JSON on stdout.
 int main(int argc, char** argv) {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "krater/app/machine.hpp"
-#include "krater/app/simulation.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/simulation/simulation.hpp"
 
 namespace {
 

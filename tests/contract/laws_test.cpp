@@ -8,12 +8,12 @@
 #include <set>
 
 #include "krater/core/lane_math.hpp"
-#include "krater/materials/eos_stage.hpp"
-#include "krater/materials/kinematics_stage.hpp"
 #include "krater/materials/law_list.hpp"
-#include "krater/materials/signal_speed_stage.hpp"
-#include "krater/materials/strength/rates.hpp"
-#include "krater/materials/strength_stage.hpp"
+#include "krater/materials/returns/rates.hpp"
+#include "krater/materials/stages/eos_stage.hpp"
+#include "krater/materials/stages/kinematics_stage.hpp"
+#include "krater/materials/stages/signal_speed_stage.hpp"
+#include "krater/materials/stages/strength_stage.hpp"
 #include "material_support.hpp"
 
 namespace {

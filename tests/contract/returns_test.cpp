@@ -8,7 +8,7 @@
 #include <random>
 
 #include "krater/materials/law_list.hpp"
-#include "krater/materials/strength/rate_return.hpp"
+#include "krater/materials/returns/rate_return.hpp"
 #include "material_support.hpp"
 
 namespace {

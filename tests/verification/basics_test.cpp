@@ -9,9 +9,9 @@
 #include <random>
 #include <sstream>
 
+#include "krater/contact/boundary.hpp"
 #include "krater/core/parallel.hpp"
-#include "krater/step/boundary.hpp"
-#include "krater/step/frames.hpp"
+#include "krater/kinematics/mpm/frames.hpp"
 #include "verification/run_support.hpp"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "krater/app/simulation.hpp"
 #include "krater/points/fields.hpp"
 #include "krater/scene/scene.hpp"
+#include "krater/simulation/simulation.hpp"
 
 namespace krater::test {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-#include "krater/app/simulation.hpp"
+#include "krater/simulation/simulation.hpp"
 
 namespace krater {
 

@@ -100,6 +100,15 @@ inline double& component(Patch& patch, int stride, int offset, int i) {
                               static_cast<std::size_t>(offset + i % 8)];
 }
 
+/// Overwrite point `to` by point `from`.
+void copy_point(Patch& patch, int stride, int from, int to);
+
+/// Make the padding lanes of the last group copies of the last point with mass 0.
+void pad(Patch& patch, int stride, int mass_offset);
+
+/// Append one point given as stride/8 doubles; grows the patch. Call pad() afterwards.
+void append(Patch& patch, const double* point, int stride);
+
 struct TileRef {
   int patch;
   int corner;  ///< bit a set: the patch lies one block below along axis a

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file scene/measures.hpp
-/// What a scene may measure: one registry of kinds, which the reader, the evaluation (app/measures)
+/// What a scene may measure: one registry of kinds, which the reader, the evaluation (measure/)
 /// and the documentation (src/output/README.md) follow. A measure is a selection of points and a
 /// kind: any kind can be asked of a body, of its largest piece, or of what lies in a region.
 #include <array>
@@ -58,7 +58,7 @@ const MeasureKindInfo& info(MeasureKind kind);
 /// Which points are measured: those of the bodies, in the region, in the piece.
 struct MeasureSelection {
   std::vector<int> bodies;     ///< indices in Scene::bodies
-  bool largest_piece = false;  ///< of the connected pieces (app/pieces.hpp) only the heaviest ...
+  bool largest_piece = false;  ///< of the connected pieces (measure/pieces.hpp) the heaviest ...
   int least_points = 0;        ///< ... or those of at least so many points; 0: all
   /// [grid axis][0 lower, 1 upper] bounds of the position [m].
   std::array<std::array<double, 2>, 3> region = {unbounded, unbounded, unbounded};

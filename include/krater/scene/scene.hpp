@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "krater/contact/options.hpp"
 #include "krater/geometry/frame.hpp"
-#include "krater/geometry/lattice.hpp"
-#include "krater/geometry/solid.hpp"
+#include "krater/geometry/seeds/lattice.hpp"
+#include "krater/geometry/solids/solid.hpp"
+#include "krater/kinematics/mpm/options.hpp"
 #include "krater/materials/stage.hpp"
 #include "krater/scene/measures.hpp"
-#include "krater/step/options.hpp"
 
 namespace krater {
 

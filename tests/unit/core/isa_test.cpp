@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The instruction-set levels give the same bits: digests of isa_digest.cpp, compiled once per level,
-// are compared for the levels that this processor has.
+// The instruction-set levels give the same bits: digests of isa_digest.cpp, compiled once per
+// level, are compared for the levels that this processor has.
 #include <doctest/doctest.h>
 
 extern "C" {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "geometry_cases.hpp"
-#include "krater/geometry/column.hpp"
-#include "krater/geometry/csg.hpp"
-#include "krater/geometry/shapes.hpp"
+#include "krater/geometry/seeds/column.hpp"
+#include "krater/geometry/solids/csg.hpp"
+#include "krater/geometry/solids/shapes.hpp"
 
 using namespace krater;
 using namespace krater::test;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "krater/geometry/lattice.hpp"
-#include "krater/geometry/primitives.hpp"
+#include "krater/geometry/seeds/lattice.hpp"
+#include "krater/geometry/solids/primitives.hpp"
 
 namespace krater::test {
 

@@ -9,9 +9,9 @@
 
 #include "geometry_cases.hpp"
 #include "krater/core/parallel.hpp"
-#include "krater/geometry/csg.hpp"
-#include "krater/geometry/shapes.hpp"
-#include "krater/geometry/thickness.hpp"
+#include "krater/geometry/seeds/thickness.hpp"
+#include "krater/geometry/solids/csg.hpp"
+#include "krater/geometry/solids/shapes.hpp"
 
 using namespace krater;
 using namespace krater::test;

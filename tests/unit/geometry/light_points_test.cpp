@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "geometry_cases.hpp"
-#include "krater/geometry/csg.hpp"
-#include "krater/geometry/shapes.hpp"
+#include "krater/geometry/solids/csg.hpp"
+#include "krater/geometry/solids/shapes.hpp"
 
 using namespace krater;
 using namespace krater::test;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "krater/geometry/surface.hpp"
+#include "krater/geometry/surfaces/surface.hpp"
 
 namespace krater::test {
 

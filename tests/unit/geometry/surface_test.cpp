@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "geometry_cases.hpp"
-#include "krater/geometry/csg.hpp"
-#include "krater/geometry/shapes.hpp"
+#include "krater/geometry/solids/csg.hpp"
+#include "krater/geometry/solids/shapes.hpp"
 #include "surface_cases.hpp"
 #include "unit/scene/scene_support.hpp"
 

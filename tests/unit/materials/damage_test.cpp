@@ -11,8 +11,8 @@
 #include "krater/materials/damage/johnson_cook.hpp"
 #include "krater/materials/damage/lemaitre.hpp"
 #include "krater/materials/damage/strain_criteria.hpp"
+#include "krater/materials/returns/rate_return.hpp"
 #include "krater/materials/strength/johnson_cook.hpp"
-#include "krater/materials/strength/rate_return.hpp"
 #include "krater/materials/strength/von_mises.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
 #include "krater/materials/eos/stiffened_gas.hpp"
 #include "krater/materials/eos/tillotson.hpp"
-#include "krater/materials/eos_stage.hpp"
+#include "krater/materials/stages/eos_stage.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "hugoniot_rows.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
-#include "krater/materials/eos_stage.hpp"
+#include "krater/materials/stages/eos_stage.hpp"
 
 namespace {
 

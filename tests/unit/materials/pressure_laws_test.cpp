@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "contract/material_support.hpp"
+#include "krater/materials/returns/trial_deviator.hpp"
 #include "krater/materials/strength/steinberg_guinan.hpp"
-#include "krater/materials/strength/trial_deviator.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "krater/materials/strength/radial_return.hpp"
+#include "krater/materials/returns/radial_return.hpp"
 
 #include <doctest/doctest.h>
 

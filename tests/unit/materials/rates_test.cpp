@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The objective rates other than truesdell (trial_deviator_test.cpp) against their closed forms:
 // theory 13, theory D9.
-#include "krater/materials/strength/rates.hpp"
+#include "krater/materials/returns/rates.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "krater/materials/kinematics_stage.hpp"
+#include "krater/materials/stages/kinematics_stage.hpp"
 
 namespace {
 

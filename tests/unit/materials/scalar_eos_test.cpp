@@ -12,7 +12,7 @@
 #include "krater/core/errors.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
-#include "krater/materials/eos_stage.hpp"
+#include "krater/materials/stages/eos_stage.hpp"
 
 namespace {
 

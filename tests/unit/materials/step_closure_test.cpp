@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
-#include "krater/materials/eos_stage.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
-#include "krater/materials/heating_stage.hpp"
-#include "krater/materials/kinematics_stage.hpp"
-#include "krater/materials/signal_speed_stage.hpp"
+#include "krater/materials/stages/eos_stage.hpp"
+#include "krater/materials/stages/heating_stage.hpp"
+#include "krater/materials/stages/kinematics_stage.hpp"
+#include "krater/materials/stages/signal_speed_stage.hpp"
 #include "krater/materials/viscosity/bulk_viscosity.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "krater/materials/returns/radial_return.hpp"
 #include "krater/materials/strength/johnson_cook.hpp"
-#include "krater/materials/strength/radial_return.hpp"
 #include "krater/materials/strength/steinberg_guinan.hpp"
 #include "krater/materials/strength/voce.hpp"
 #include "krater/materials/strength/zerilli_armstrong.hpp"

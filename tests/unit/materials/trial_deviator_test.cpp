@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "krater/materials/strength/trial_deviator.hpp"
+#include "krater/materials/returns/trial_deviator.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "krater/materials/kinematics_stage.hpp"
-#include "krater/materials/strength_stage.hpp"
+#include "krater/materials/stages/kinematics_stage.hpp"
+#include "krater/materials/stages/strength_stage.hpp"
 
 namespace {
 

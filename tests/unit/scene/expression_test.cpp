@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "krater/scene/expression.hpp"
+#include "krater/scene/yaml/expression.hpp"
 
 #include <doctest/doctest.h>
 

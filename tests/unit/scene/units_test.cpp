@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "krater/scene/units.hpp"
+#include "krater/scene/yaml/units.hpp"
 
 #include <doctest/doctest.h>
 

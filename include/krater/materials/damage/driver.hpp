@@ -11,7 +11,7 @@
 #include "krater/core/lane_math.hpp"
 #include "krater/core/tensor.hpp"
 #include "krater/materials/law.hpp"
-#include "krater/materials/strength/rate_return.hpp"
+#include "krater/materials/returns/rate_return.hpp"
 
 namespace krater::inline KRATER_ISA {
 

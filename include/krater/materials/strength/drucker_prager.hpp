@@ -17,7 +17,7 @@
 #pragma once
 
 #include "krater/materials/law.hpp"
-#include "krater/materials/strength/flow.hpp"
+#include "krater/materials/returns/flow.hpp"
 
 namespace krater::inline KRATER_ISA {
 

@@ -22,8 +22,8 @@
 #pragma once
 
 #include "krater/materials/law.hpp"
-#include "krater/materials/strength/flow.hpp"
-#include "krater/materials/strength/softening.hpp"
+#include "krater/materials/returns/flow.hpp"
+#include "krater/materials/returns/softening.hpp"
 
 namespace krater::inline KRATER_ISA {
 

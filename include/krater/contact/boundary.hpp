@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file contact/boundary.hpp
+/// Domain planes. A column is the three node lines nearest to the plane: ghost (outside), plane,
+/// inner; points beyond half a cell of a side also see the ghost.
+///
+/// Planes that fold - symmetry (and the axis r = 0), sticky: the ghost's sums are folded onto its
+/// mirror node before the momentum update, normal components odd, tangential even (sticky: all
+/// odd); the plane's own odd components vanish. This is the shape function S(x - x_i) +- S(x +
+/// x_i): exact for every shape, no special knots (theory 19). With m_g, p_g, f_g of the ghost and
+/// p_0, f_0 of the plane as scattered, odd components only, the points receive
+///   J = -2 (m_g dv_1 + dt f_g) - dt f_0 - (1 - alpha) [2 (p_g + m_g v-_1) + p_0],
+///   W = -(1 - alpha^2) L,   L = 1/2 sum p^2/m before - after the fold,
+/// where alpha is the share of their own residual that they keep (FLIP 1: the fold of v- then never
+/// reaches them).
+///
+/// Planes that push - wall, velocity: unilateral, after the momentum update. The plane may lie
+/// beside its node line, which is then delta cells beyond it, |delta| <= 1/2. Held, a column moves
+/// linearly about the plane: with u = v - v_plane
+///   u_i = c_i u_1,  c = {-(1 + delta), -delta, 1 - delta}/(1 - delta)  (ghost, plane, inner),
+///   u_1 = sum c_i m_i u_i / sum c_i^2 m_i   (the motion nearest to the free one by mass),
+/// so that at the plane u = 0 for every shape, and at delta = 0 this is the fold above. It is held
+/// while that pushes, J = sum m_i (c_i u_1 - u_i) . inward > 0, and material touches the plane: the
+/// volume criterion of theory 19 against the column's own fill, so that it also holds at the rim
+/// of a foot. Wall: Coulomb friction |J_t| <= mu J_n. Velocity: sticks, and travels with the given
+/// velocity from its side inwards. v- stays as scattered.
+///
+/// open: nothing; points that leave are removed and accounted.
+#include <array>
+#include <vector>
+
+#include "krater/contact/options.hpp"
+#include "krater/grid/blocks.hpp"
+
+namespace krater {
+
+using BoundaryConditions = std::array<std::array<Boundary, 2>, 3>;  ///< [axis][0 lower, 1 upper]
+
+/// What the planes did in one step.
+struct BoundaryWork {
+  double work = 0;                  ///< change of the grid's kinetic energy [J]
+  double force_correction = 0;      ///< change of the work of the nodal forces, part of `work` [J]
+  double fold_work = 0;             ///< by planes that fold: on the way from the points [J]
+  std::array<double, 3> impulse{};  ///< on the points [N s]
+  int columns_in_contact = 0;
+};
+
+class BoundarySet {
+ public:
+  /// `fixed_reference`: nodes are not where the material is. A wall then holds the columns that lie
+  /// on it in the reference while their material is at the wall, see note_gaps(); what reaches the
+  /// wall from elsewhere is held point by point (mpm/reference.hpp).
+  BoundarySet(const GridGeometry& geometry, const BoundaryConditions& conditions,
+              bool fixed_reference = false)
+      : geometry_{geometry}, conditions_{conditions}, fixed_reference_{fixed_reference} {}
+
+  /// Velocity fields that pushing planes leave alone and whose folds move no point (rigid bodies).
+  /// Before relink().
+  void set_rigid_fields(std::vector<bool> rigid) { rigid_ = std::move(rigid); }
+  const BoundaryConditions& conditions() const { return conditions_; }
+  /// Find the columns of nodes at each plane and mark their blocks; call after
+  /// BlockGrid::rebuild(), and when set_time() says so.
+  void relink(BlockGrid& grid);
+  /// Planes that travel go to where they are at `time`; true when one reached other node lines.
+  bool set_time(double time);
+  /// Where the plane of a side is `later` seconds after the time set [m].
+  double position(int axis, int side, double later = 0) const;
+  /// Points that have moved for `dt` are judged by the planes at the end of the step.
+  void set_step(double dt) { step_ = dt; }
+  double step() const { return step_; }
+  /// Where the plane is at the end of the step: as a storage coordinate, and whether x is beyond.
+  double last_storage(int axis, int side) const;
+  bool beyond(int axis, int side, double x) const;
+  /// Fixed reference: nodes hold [m, sum S m x, ..]: how far the material of each wall column is
+  /// from the wall.
+  void note_gaps();
+  /// Fold sums [m, p, f, V]; before the momentum update.
+  void fold();
+  /// Planes that push: change v+ and dv of [v+, m, dv, V]; after the momentum update.
+  BoundaryWork constrain();
+  /// Give ghosts the mirrored values the gather reads.
+  void mirror() const;
+  /// Call call(ghost, inner node) for each column of the planes that are not open.
+  template <class Call>
+  void for_each_mirror(const Call& call) const {
+    for (const Plane& plane : planes_)
+      for (const Column& c : plane.columns) call(c.ghost, c.inner);
+  }
+  /// What the folds did to points that keep the share `alpha` of their residual; after mirror().
+  BoundaryWork folded(double dt, double alpha) const;
+  /// Some plane moves nodes by itself.
+  bool drives() const;
+  bool is_open(int axis, int side) const {
+    return !conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)].closed();
+  }
+
+ private:
+  /// Sums of the odd components as scattered, of a plane that folds.
+  struct Folded {
+    double ghost_mass = 0;
+    std::array<double, 3> ghost_momentum{}, ghost_force{}, plane_momentum{}, plane_force{};
+  };
+  struct Column {
+    double *ghost, *plane, *inner;
+    bool moves_points;  ///< the field is not that of a rigid body
+    double gap;         ///< fixed reference: distance of the plane's material from the wall [m]
+    Folded folded;
+  };
+  struct Plane {
+    int axis, side;
+    double inward;  ///< +1 lower, -1 upper
+    const Boundary* condition;
+    int line = 0;          ///< storage index of the plane's node line
+    double beyond = 0;     ///< delta: how far that line lies outside the plane [cells]
+    double fold_loss = 0;  ///< of the last fold() [J]
+    std::vector<Column> columns;
+    bool odd(int component) const {
+      return component == axis || condition->kind == BoundaryKind::sticky;
+    }
+  };
+  /// A node that pushing planes may change, and what it held before they did.
+  struct Held {
+    double* node;
+    std::array<double, kNodeDoubles> before;
+  };
+  void place(Plane& plane) const;
+  void add_columns(BlockGrid& grid, Plane& plane) const;
+  void list_held_nodes();
+  void fold_column(Plane& plane, Column& column) const;
+  bool touches(const Plane& plane, const Column& column) const;
+  bool hold(const Plane& plane, const Column& column) const;
+
+  GridGeometry geometry_;
+  BoundaryConditions conditions_;
+  bool fixed_reference_;
+  double time_ = 0, step_ = 0;
+  std::vector<bool> rigid_;  ///< by field; beyond the list: no
+  std::vector<Plane> planes_;
+  std::vector<Held> held_;  ///< each node once, in the order of memory
+};
+
+}  // namespace krater

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file contact/contact.hpp
+/// Contact of velocity fields at nodes (theory 2, CCF (4)-(6)). Fields A and B with masses at a
+/// node and the unit normal n from A to B exchange
+///   J_n = m_A m_B/(m_A + m_B) (v_A - v_B).n > 0,   J_t = min(mu J_n, the sticking value)
+/// against the slip, +J and -J, while they approach and touch; after the forces, before the walls.
+/// Linear and angular momentum are exact: both impulses act at one node. First contact on the grid
+/// is inelastic; its loss is booked, friction apart.
+///
+/// Filling. phi_k = sum S V_p / (volume that S covers), 1 where body k fills the node; at closed
+/// sides the covered volume ends at the plane and phi is mirrored.
+/// Joint: of the node and those around it the one with the largest min(phi_A, phi_B); normal and
+/// gap are judged there, for in the tail of a body its gradient means nothing.
+/// Normal: n ~ |grad phi_B|^80 grad phi_B - |grad phi_A|^80 grad phi_A, central differences
+/// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
+/// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
+/// (contact/contact_regression.hpp), where neither body is the wider one. In nodes of a plane that
+/// mirrors n keeps no component across it.
+/// Touching (contact/contact_joint.cpp): bodies are apart as soon as one grid axis parts them.
+/// Along each axis that has A on one side of the joint and B on the other, either body's reach
+/// comes from its own three fillings:
+///   reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)),
+/// a face's place whatever part of the node's width the body takes, so that corners, edges and
+/// faces are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The
+/// volume criterion, sum phi > 1 - tol, is this one where both bodies are wide.
+/// Three and more fields: pairs in fixed order, three sweeps.
+///
+/// Rigid fields (contact/rigid.hpp) count as of infinite mass and move with their own velocity at
+/// the node, two of them pass through each other. What a free body receives changes its velocity u
+/// in the same step; the nodes must meet the changed one, or contact with much mass would throw a
+/// light body back with energy that is not there. So u is foretold, implicitly in the impulses:
+///   (1 + M^-1 K) du = M^-1 J(u),  K = sum m A^T P A,  A u = V + omega x r,
+/// P = n n^T where it slides, 1 where it sticks; then the impulses with u + du are exchanged and
+/// summed in fixed order, so that momentum is exact whatever was foretold.
+#include <cstdint>
+#include <vector>
+
+#include "krater/contact/boundary.hpp"
+#include "krater/contact/rigid.hpp"
+#include "krater/points/columns.hpp"
+
+namespace krater {
+
+/// What contact did in one step.
+struct ContactWork {
+  double work = 0;              ///< change of the grid's kinetic energy [J]
+  double force_correction = 0;  ///< change of the work of the nodal forces, part of `work` [J]
+  double friction = 0;          ///< work of the tangential impulses, part of `work` [J]
+  double nodes = 0;             ///< pairs that pushed
+  double driven = 0;            ///< work of prescribed rigid bodies on others, part of `work` [J]
+  void add(const ContactWork& o) {
+    work += o.work;
+    force_correction += o.force_correction;
+    friction += o.friction;
+    nodes += o.nodes;
+    driven += o.driven;
+  }
+};
+
+class ContactSet {
+ public:
+  /// `hoop`: axisymmetric frame. `linear`: linear shape functions.
+  ContactSet(const GridGeometry& geometry, const BoundaryConditions& conditions, bool hoop,
+             bool linear, const ContactOptions& options);
+  bool active() const { return options_.active; }
+  /// Find the blocks that fields share; after BlockGrid::rebuild().
+  void relink(const BlockGrid& grid);
+  /// Change v+ and dv of [v+, m, dv, V] where fields touch, and the velocities of free rigid
+  /// bodies unless the nodes are only those of a projection. Field k is body k.
+  ContactWork apply(BlockGrid& grid, const std::vector<PointColumns>& columns, RigidBodies& rigid,
+                    bool projection = false);
+  std::size_t shared_blocks() const { return groups_.size(); }
+
+ private:
+  struct Contact {
+    int node;  ///< in the block
+    int a, b;  ///< fields of the group
+    std::array<double, 3> normal;
+    bool even;  ///< both bodies are about as wide at the joint
+  };
+  /// What one group does to one rigid body: impulses, or what foretells them.
+  struct RigidShare {
+    int body = -1;
+    RigidImpulse sum;
+    Eigen::Matrix<double, 6, 1> push = Eigen::Matrix<double, 6, 1>::Zero();
+    Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  };
+  struct Group {
+    std::size_t first;                  ///< of the node blocks with one key ...
+    int fields;                         ///< ... one per field
+    std::vector<std::int32_t> sources;  ///< per field and padded node: node in memory, -1: none;
+                                        ///< linked when two bodies first share a node
+    std::vector<double> inverse;        ///< 1/covered volume, per padded node
+    std::vector<Contact> contacts;      ///< of the step, in order of their nodes
+    std::vector<RigidShare> shares;     ///< of the step
+  };
+  struct Scratch {
+    std::vector<double> filling;  ///< per field, padded by two nodes on each side
+  };
+  /// A deformable field's node, struck by a rigid body.
+  struct Strike {
+    double* node;
+    int body;
+    std::array<double, 3> normal;  ///< out of the rigid body
+    std::array<double, 3> place;   ///< of the node [m]
+    double friction;
+  };
+  struct AxisLink {
+    int slot, local;  ///< neighbour 0..2 along the axis, node in it
+    double inverse;   ///< 1/covered
+  };
+  using AxisLinks = std::array<std::array<AxisLink, 12>, 3>;
+  AxisLinks axis_links(const BlockKey& key) const;
+  double covered(int axis, int index) const;
+  int mirrored(int axis, int index) const;
+  void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
+                     Scratch& scratch, const RigidBodies& rigid) const;
+  void refine(const BlockGrid& grid, const std::vector<PointColumns>& columns, const Group& group,
+              Contact& contact) const;
+  ContactWork exchange_group(BlockGrid& grid, Group& group, const RigidBodies& rigid) const;
+  void hand_over(RigidBodies& rigid, ContactWork& sum) const;
+  void foretell(const BlockGrid& grid, RigidBodies& rigid);
+  Strike strike_of(const BlockGrid& grid, const Group& group, const Contact& contact,
+                   bool a_is_rigid) const;
+  void probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const;
+  void exchange(const Strike& strike, const RigidTwist& twist, RigidShare& share,
+                ContactWork& sum) const;
+  static RigidShare& share_of(Group& group, int body);
+  void link(const BlockGrid& grid, Group& group) const;
+  void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
+  std::array<double, 3> gradient(const double* phi) const;
+  int joint_near(const double* phi_a, const double* phi_b, int at) const;
+  double gap(const double* phi_a, const double* phi_b) const;
+  bool find_contact(const Scratch& scratch, int at, Contact& contact) const;
+  bool keep_in_planes(const BlockKey& key, Contact& contact) const;
+  void exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;
+
+  GridGeometry geometry_;
+  BoundaryConditions conditions_;
+  bool hoop_, linear_;
+  ContactOptions options_;
+  int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
+  std::vector<Group> groups_;
+  std::vector<RigidTwist> twists_;  ///< by body: velocities that nodes meet in this step
+  std::vector<Scratch> scratch_;
+  std::vector<ContactWork> results_;
+};
+
+}  // namespace krater

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mpm/gather.hpp
+/// grid_to_particles of one patch, then the constitutive stages on the points while they are in the
+/// cache:
+///   s+ = sum S v+,  s- = s+ - sum S dv,  v_p <- s+ + alpha (v_p - s-),  x_p <- x_p + dt s+,
+///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
+/// alpha = 1: FLIP; 0: APIC; between: TFLIP. One alpha for all points: sum m (v_p - s-) vanishes
+/// only over all of them, so an alpha that varied in space would lose momentum. An isolated point
+/// (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand for ever. A failed
+/// one, which no tension holds, needs more company: two on their own would still expand (0.4).
+#include "krater/kinematics/mpm/scatter.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+/// The columns the gather touches, as views.
+struct GatherViews {
+  WriteView position, velocity, affine, kept, map, half_width, domain;
+  ReadView grid_position, mass, density, body_acceleration, energy, sound_speed, failed;
+  WriteView indicator;
+  WriteView step_gradient, extra_dilatation;
+  ReadView signal;
+};
+
+KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
+                                           const SweepScratch& w) {
+  const auto read = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
+  const auto write = [&](int offset) { return WriteView{patch.records.data() + offset, c.stride}; };
+  return {write(c.position),
+          write(c.velocity),
+          write(c.affine),
+          write(c.grid_velocity),
+          write(c.map),
+          write(c.half_width),
+          write(c.domain),
+          read(c.grid_position),
+          read(c.mass),
+          read(c.density),
+          read(c.body_acceleration),
+          read(c.energy),
+          read(c.sound_speed),
+          read(c.failed),
+          write(c.indicator),
+          WriteView{w.local + c.local_gradient, c.local_stride},
+          WriteView{w.local + c.local_dilatation, c.local_stride},
+          ReadView{w.local + c.local_signal, c.local_stride}};
+}
+
+KRATER_FORCE_INLINE ReadView reading(WriteView v) { return {v.base, v.stride}; }
+
+/// Copy the tile of nodes around a block: the block itself and its neighbours above.
+/// `nodes`: records of all node blocks, one after the other.
+template <int Dim>
+void load_halo(const double* nodes, const Patch& patch, double* halo) {
+  constexpr int E = block_edge(Dim), T = tile_edge(Dim), rows = Dim == 3 ? T : 1;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < T; ++j)
+      for (int high = 0; high < 2; ++high) {
+        const int corner = Dim == 3 ? (i / E) + 2 * (j / E) + 4 * high : (j / E) + 2 * high;
+        const double* block =
+            nodes + static_cast<std::size_t>(patch.node_blocks[static_cast<unsigned>(corner)]) *
+                        kBlockNodes * kNodeDoubles;
+        const double* from = block + kNodeDoubles * (((i % E) * E + j % E) * E);
+        double* to = halo + kNodeDoubles * ((i * T + j) * T + E * high);
+        for (int k = 0; k < (high != 0 ? T - E : E); ++k) store(to + 8 * k, load(from + 8 * k));
+      }
+}
+
+/// Nodal sums of 8 points, one pack per channel: V[c] value, G[a][c] slope along axis a.
+template <int Dim>
+struct PointSums {
+  Pack V[8], G[Dim][8];
+};
+
+template <int Dim>
+KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>& lw,
+                                      PointSums<Dim>& out) {
+  for (int l = 0; l < kLanes; ++l) {
+    const Gathered<Dim> point = gather_point<Dim>(halo, lw, l);
+    out.V[l] = point.V;
+    for (int a = 0; a < Dim; ++a) out.G[a][l] = point.G[a];
+  }
+  transpose8(out.V);
+  for (int a = 0; a < Dim; ++a) transpose8(out.G[a]);
+}
+
+/// Running sums of a patch, one per lane, folded once at the end.
+struct GatherSums {
+  Pack kinetic = 0.0, internal = 0.0, external = 0.0;
+};
+
+template <GatherPart Part>
+struct PartTraits {
+  static constexpr bool velocity = Part == GatherPart::all || Part == GatherPart::velocity_only ||
+                                   Part == GatherPart::velocity_move ||
+                                   Part == GatherPart::filter_move;
+  static constexpr bool strain = Part == GatherPart::all || Part == GatherPart::strain_move ||
+                                 Part == GatherPart::strain_only || Part == GatherPart::filter_move;
+  static constexpr bool keep =
+      Part == GatherPart::velocity_only || Part == GatherPart::keep_only;  ///< for later
+  static constexpr bool move = !keep && Part != GatherPart::strain_only;
+  static constexpr bool kept = Part == GatherPart::strain_move;  ///< move with the kept s+
+  static constexpr bool mean =
+      Part == GatherPart::filter_move;  ///< move with the mean of old and new v_p
+  static constexpr bool ended = Part == GatherPart::strain_only;  ///< strain of the move before
+  static constexpr bool last = move;  ///< velocities are final: sum the energies
+};
+
+/// Velocity and position of 8 points; adds the work of body forces.
+template <class Frame, class Configuration, GatherPart Part>
+KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                     const SweepSettings& s, int g, GatherSums& sums) {
+  using T = PartTraits<Part>;
+  const Pack m = view.mass(g), alpha = s.alpha;
+  for (int a = 0; a < Frame::dim; ++a) {
+    const Pack plus = n.V[a], change = n.V[4 + a];
+    const Pack old = view.velocity(g, a);
+    Pack carried = plus;  // velocity the position moves with
+    if constexpr (T::velocity) {
+      const Pack fresh = fma(alpha, old - (plus - change), plus);
+      view.velocity.set(g, a, fresh);
+      sums.external =
+          fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), change, plus), sums.external);
+      if constexpr (T::mean) carried = 0.5 * (old + fresh);
+    }
+    if constexpr (T::keep || Configuration::fixed) view.kept.set(g, a, plus);
+    if constexpr (T::kept) carried = view.kept(g, a);
+    if constexpr (T::move) view.position.set(g, a, fma(Pack(s.dt), carried, view.position(g, a)));
+  }
+}
+
+/// X (I - X)^-1: the map of a step less the identity, from dt L on the configuration at its end.
+template <int Dim>
+KRATER_FORCE_INLINE void from_the_end(Pack (&X)[Dim][Dim]) {
+  Pack A[Dim][Dim], inverse[Dim][Dim], product[Dim][Dim];
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) A[i][j] = (i == j ? 1.0 : 0.0) - X[i][j];
+  invert<Dim>(A, inverse);
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) {
+      product[i][j] = 0.0;
+      for (int k = 0; k < Dim; ++k) product[i][j] = fma(X[i][k], inverse[k][j], product[i][j]);
+    }
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) X[i][j] = product[i][j];
+}
+
+/// f - I of the step over tensor axes into the local record; on a fixed reference F goes on to the
+/// end of the step. `Ended`: the points have moved already (usf). Returns tr L.
+template <class Frame, class Configuration, bool Ended>
+KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                        Pack r, double dt, int g) {
+  constexpr int D = Frame::dim;
+  Pack L[D][D];
+  for (int i = 0; i < D; ++i)
+    for (int a = 0; a < D; ++a) L[i][a] = n.G[a][i];
+  if constexpr (Configuration::fixed) {
+    const InverseMap<D> inverse = inverse_map<D>(reading(view.map), g);
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) {
+        L[i][j] = 0.0;
+        for (int a = 0; a < D; ++a) L[i][j] = fma(n.G[a][i], inverse.m[a][j], L[i][j]);
+      }
+    for (int i = 0; i < D; ++i)
+      for (int a = 0; a < D; ++a)
+        view.map.set(g, D * i + a, fma(Pack(dt), n.G[a][i], view.map(g, D * i + a)));
+  }
+  Pack trace = 0.0;
+  if constexpr (D == 2)
+    for (int k = 0; k < 9; ++k) view.step_gradient.set(g, k, Pack(0.0));
+  Pack step[D][D];
+  for (int i = 0; i < D; ++i)
+    for (int a = 0; a < D; ++a) step[i][a] = dt * L[i][a];
+  if constexpr (Ended) from_the_end<D>(step);
+  for (int i = 0; i < D; ++i) {
+    for (int a = 0; a < D; ++a)
+      view.step_gradient.set(g, 3 * tensor_axis<D>(i) + tensor_axis<D>(a), step[i][a]);
+    trace += Ended ? step[i][i] * (1 / dt) : L[i][i];
+  }
+  if constexpr (Frame::hoop) {
+    const Pack hoop = n.V[0] / r, change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
+    view.step_gradient.set(g, 4, change);
+    trace += Ended ? change * (1 / dt) : hoop;
+  }
+  return trace;
+}
+
+/// Tensor of the squared half-widths, M <- f M f^T, and the half-widths sqrt(M_aa): a domain that
+/// turns with its material keeps its size, one that was stretched turns its length along.
+template <int Dim>
+KRATER_FORCE_INLINE void carry_domain(const GatherViews& view, int g) {
+  const auto slot = [](int a, int b) { return voigt(tensor_axis<Dim>(a), tensor_axis<Dim>(b)); };
+  Pack f[Dim][Dim], half[Dim][Dim], M[Dim][Dim];
+  for (int i = 0; i < Dim; ++i)
+    for (int a = 0; a < Dim; ++a) {
+      f[i][a] = view.step_gradient(g, 3 * tensor_axis<Dim>(i) + tensor_axis<Dim>(a));
+      if (i == a) f[i][a] += 1.0;
+      M[i][a] = view.domain(g, slot(i, a));
+    }
+  for (int i = 0; i < Dim; ++i)
+    for (int b = 0; b < Dim; ++b) {
+      half[i][b] = 0.0;
+      for (int a = 0; a < Dim; ++a) half[i][b] = fma(f[i][a], M[a][b], half[i][b]);
+    }
+  for (int i = 0; i < Dim; ++i)
+    for (int j = i; j < Dim; ++j) {
+      Pack sum = 0.0;
+      for (int b = 0; b < Dim; ++b) sum = fma(half[i][b], f[j][b], sum);
+      view.domain.set(g, slot(i, j), sum);
+      if (i == j) view.half_width.set(g, i, sqrt(sum));
+    }
+}
+
+/// Shares of the mass it sees from which a point carries no L.
+inline constexpr double kAlone = 0.9, kCrowd = 0.4;
+
+/// L of v+, carried to the grid with the new velocity: zero for an isolated point.
+template <class Frame>
+KRATER_FORCE_INLINE void carry_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                        const LaneWeights<Frame::dim>& lw, int g) {
+  constexpr int D = Frame::dim;
+  Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
+  for (int a = 0; a < D; ++a) {
+    Pack squares = 0.0;
+    for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
+    own = own * squares;
+  }
+  const Pack limit = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
+  const Mask alone = own > limit * n.V[3];
+  for (int a = 0; a < D; ++a)
+    for (int i = 0; i < D; ++i) view.affine.set(g, D * i + a, select(alone, Pack(0.0), n.G[a][i]));
+}
+
+/// Kinetic energy, affine part 1/2 m h^2/4 L:L included.
+template <int Dim, bool Affine>
+KRATER_FORCE_INLINE void sum_kinetic(const GatherViews& view, double moment, int g,
+                                     GatherSums& sums) {
+  Pack twice = 0.0;
+  for (int a = 0; a < Dim; ++a) twice = fma(view.velocity(g, a), view.velocity(g, a), twice);
+  if constexpr (Affine)
+    for (int a = 0; a < Dim; ++a) {
+      Pack squared = 0.0;
+      for (int i = 0; i < Dim; ++i) {
+        const Pack L = view.affine(g, Dim * i + a);
+        squared = fma(L, L, squared);
+      }
+      twice = fma(Pack(moment), squared, twice);
+    }
+  sums.kinetic = fma(0.5 * view.mass(g), twice, sums.kinetic);
+}
+
+/// Lanes whose point is no longer in this block or not inside the domain.
+template <int Dim>
+KRATER_FORCE_INLINE Mask left_block(const SweepSettings& settings, const PatchOrigin& origin,
+                                    ReadView x, int g) {
+  const GridGeometry& grid = *settings.geometry;
+  Mask out = Pack(0.0) > Pack(0.0);
+  for (int a = 0; a < Dim; ++a) {
+    const Pack s = storage(grid, x(g, a), a);
+    const Pack cell = base_node(s) - origin.first[a];
+    out = out | (cell < Pack(0.0)) | (cell >= Pack(static_cast<double>(block_edge(Dim)))) |
+          (s < Pack(settings.first[static_cast<unsigned>(a)])) |
+          (s > Pack(settings.last[static_cast<unsigned>(a)]));
+  }
+  return out;
+}
+
+KRATER_FORCE_INLINE void note_limit(PatchResult& r, Pack rate, int kind, int g, Mask valid) {
+  const Pack candidate = select(valid, rate, Pack(0.0));
+  if (!any(candidate > Pack(r.max_rate))) return;
+  for (int l = 0; l < kLanes; ++l)
+    if (get(candidate, l) > r.max_rate) {
+      r.max_rate = get(candidate, l);
+      r.limiter = kind;
+      r.limiting_point = kLanes * g + l;
+    }
+}
+
+/// After the stages: shock indicator, time-step limits, internal energy of groups [first, last).
+template <int Dim, class Configuration>
+void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s, int first,
+                  int last, ReadView rate, bool indicator, GatherSums& sums) {
+  const GridGeometry& grid = *s.geometry;
+  for (int g = first; g < last; ++g) {
+    const Mask valid = first_lanes(patch.count - kLanes * g);
+    const Pack expansion = abs(rate(g)), c = view.sound_speed(g), signal = view.signal(g);
+    if (indicator) view.indicator.set(g, select(c > Pack(0.0), expansion * grid.h / c, Pack(0.0)));
+    Pack speed = 0.0;
+    Pack fastest = signal;
+    if constexpr (Configuration::fixed) {  // theory 12: h times the smallest stretch, no |v|
+      const ReadView F = reading(view.map);
+      fastest = signal * sqrt(inverse_stretch_squared(inverse_map<Dim>(F, g)));
+      const double strain = hmax(select(valid, stretch_measure<Dim>(F, g), Pack(0.0)));
+      if (strain > patch.result.stretch) patch.result.stretch = strain;
+    } else {
+      for (int a = 0; a < Dim; ++a) speed = max(speed, abs(view.velocity(g, a)));
+      fastest = speed + signal;
+    }
+    note_limit(patch.result, fastest * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g, valid);
+    note_limit(patch.result, 10.0 * expansion, 2, g, valid);
+    sums.internal = fma(view.mass(g), view.energy(g), sums.internal);
+  }
+}
+
+}  // namespace krater::inline KRATER_ISA

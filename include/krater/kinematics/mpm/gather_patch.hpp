@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mpm/gather_patch.hpp
+/// The two passes of the gather over one patch: first all velocity gradients (the cell averages
+/// need them), then the constitutive stages on runs of a few lane groups, so that their local
+/// records stay in the first-level cache.
+#include "krater/kinematics/mpm/grid_pressure.hpp"
+#include "krater/materials/batch_access.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+inline constexpr int kStageGroups = 8;  ///< lane groups a stage works on at once
+
+/// Ask for the whole record of a lane group: here the points come from memory, and the stages will
+/// want what this pass does not. The processor itself looks ahead only within a page.
+KRATER_FORCE_INLINE void fetch_record(const Patch& patch, int stride, int g) {
+  if (g >= patch.groups()) return;
+  const double* record = patch.records.data() + g * stride;
+  for (int k = 0; k < stride; k += kLanes) __builtin_prefetch(record + k, 1);
+}
+inline constexpr int kFetchAhead = 3;  ///< lane groups
+
+/// First pass: nodes -> points.
+template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
+void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
+                  const GatherViews& view, const CellSums& cells, GatherSums& sums) {
+  constexpr int D = Frame::dim;
+  const int stride = view.mass.stride;
+  using T = PartTraits<Part>;
+  const PatchOrigin origin = origin_of<D>(patch);
+  const GridGeometry& grid = *s.geometry;
+  LaneWeights<D> lw;
+  PointSums<D> n;
+  for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
+  for (int g = 0; g < patch.groups(); ++g) {
+    fetch_record(patch, stride, g + kFetchAhead);
+    compute_weights<D, Shape, false>(grid, origin, view.grid_position, reading(view.half_width), g,
+                                     lw);
+    gather_group<D>(w.halo, lw, n);
+    double* cell = w.pressures + kLanes * g;
+    if (s.average_cells) store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
+    const Pack r = view.position(g, 0);
+
+    Pack check = n.V[0];
+    for (int a = 0; a < D; ++a)
+      for (int i = 0; i < D; ++i) check += n.G[a][i];
+    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
+    if (bad != 0 && patch.result.fault.kind == FaultKind::none)
+      patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
+
+    if constexpr (T::strain) {
+      const Pack trace = store_gradient<Frame, Configuration, T::ended>(view, n, r, s.dt, g);
+      view.extra_dilatation.set(
+          g, trace);  // tr L for now; average_dilatation() turns it into the increment
+      if (s.average_cells) cells.add(cell, view.mass(g) / view.density(g), trace);
+      if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
+    }
+    if constexpr (T::velocity || T::move || T::keep) {
+      move_points<Frame, Configuration, Part>(view, n, s, g, sums);
+    }
+    if constexpr (T::velocity && Affine) carry_gradient<Frame>(view, n, lw, g);
+    if constexpr (T::last) {
+      sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
+      unsigned gone = 0;
+      if constexpr (!Configuration::fixed)
+        gone = bits(left_block<D>(s, origin, view.grid_position, g) &
+                    first_lanes(patch.count - kLanes * g));
+      w.leavers[g] = static_cast<unsigned char>(gone);
+    }
+  }
+}
+
+/// ExtraDilatation: tr L -> dt beta (tr_c - tr L).
+KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSettings& s,
+                                            const SweepScratch& w, const GatherViews& view,
+                                            const CellSums& cells) {
+  if (!s.average_cells) {
+    for (int g = 0; g < patch.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
+    return;
+  }
+  cells.divide();
+  for (int g = 0; g < patch.groups(); ++g) {
+    const double* cell = w.pressures + kLanes * g;
+    const Pack beta = look_up(patch.beta.data(), cell), mean = look_up(cells.value, cell);
+    view.extra_dilatation.set(g, s.dt * (beta * (mean - view.extra_dilatation(g))));
+  }
+}
+
+/// The volume of a fluid changes by what flows, det f + dt (tr_p - tr L): the extra dilatation a of
+/// det f (1 + a/2)/(1 - a/2).
+KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& c,
+                                        const SweepSettings& s, const SweepScratch& w,
+                                        const GatherViews& view) {
+  const ReadView correction{w.local + c.local_correction, c.local_stride};
+  for (int g = 0; g < patch.groups(); ++g) {
+    const Pack change = fma(Pack(s.dt), correction(g), view.extra_dilatation(g));
+    const Pack j = det_minus_one(load_mat3(reading(view.step_gradient), g)) + 1.0;
+    view.extra_dilatation.set(g, change / fma(Pack(0.5), change, j));
+  }
+}
+
+/// Second pass: constitutive update.
+template <int Dim, class Configuration>
+void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
+                const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
+  const PointColumns& c = body.columns;
+  const ReadView rate{w.local + c.local_rate, c.local_stride};
+  for (int first = 0; first < patch.groups(); first += kStageGroups) {
+    const int groups =
+        patch.groups() - first < kStageGroups ? patch.groups() - first : kStageGroups;
+    const BatchData batch{patch.records.data() + first * c.stride,
+                          c.stride,
+                          w.local + first * c.local_stride,
+                          c.local_stride,
+                          w.zeros,
+                          groups,
+                          patch.count - kLanes * first,
+                          first,
+                          s.dt,
+                          s.geometry->h,
+                          &patch.result.ledger,
+                          &patch.result.fault};
+    for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
+    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0,
+                                     sums);
+  }
+}
+
+template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
+void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
+                  const SweepSettings& s, const SweepScratch& w) {
+  constexpr int D = Frame::dim;
+  using T = PartTraits<Part>;
+  load_halo<D>(grid.node_blocks.front().nodes, patch, w.halo);
+  const GatherViews view = make_views(patch, body.columns, w);
+  const CellSums cells{w.cells, w.cells + kBlockNodes};
+  if (s.average_cells) cells.clear();
+  const bool fluid = T::strain && body.columns.local_correction >= 0;
+  if (fluid) {  // with the weights of the force, before the points move
+    load_halo<D>(s.pressure_nodes, patch, w.pressure_halo);
+    correct_dilatation(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
+  }
+  GatherSums sums;
+  gather_nodes<Frame, Shape, Affine, Configuration, Part>(patch, s, w, view, cells, sums);
+  if (T::strain && patch.result.fault.kind == FaultKind::none) {
+    average_dilatation(patch, s, w, view, cells);
+    if (fluid) add_correction(patch, body.columns, s, w, view);
+    run_stages<D, Configuration>(patch, body, s, w, view, sums);
+    patch.result.internal = sum(sums.internal);
+  }
+  if (T::last) patch.result.kinetic = sum(sums.kinetic);
+  if (T::velocity) patch.result.external_work = s.dt * sum(sums.external);
+}
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mpm/grid_pressure.hpp
+/// Pressure of fluids and soft solids, integrated over the cells of the grid instead of over the
+/// points. Points that left their lattice integrate a uniform pressure to a force g_i = sum V grad
+/// S that is not zero, and points that follow it strain: sum V tr L = dt p sum g_i^2/m_i > 0 in
+/// every step, whatever the pattern. A solid resists, a fluid drifts without
+/// end. With the means of the points at the nodes, P_j = sum S V (p + q) / V_j, V_j = sum S V,
+/// and P_h = sum N_j P_j, the smooth part of the pressure is integrated exactly, and the points
+/// keep what they add to it:
+///   f_i = sum_p V (p + q - P_h) grad S_i + sum_c int_c phi P_h div(N_i) dV,
+///   tr_p = tr L + sum_j S_j (D_j - T_j)/V_j,
+///   D_j = sum_c int_c phi N_j div(v) dV,   T_j = sum_p S_j V tr L.
+/// The second line is the adjoint of the first, so that force and strain exchange exactly what one
+/// of them gives: energy as good as before. A uniform pressure gives no force inside; a closed box
+/// keeps sum V to round-off, for sum V tr_p = sum D_j = int div(v). N: quadratic B-splines,
+/// whatever S is; int over dual cells, where they are polynomials, by 2 Gauss points per axis
+/// (exact for a uniform pressure, about the axis too). phi: share of the fluid in what fills a
+/// node, contact's other fields included.
+/// Cells and the points in them take part by a weight: 1 where every node of the cell is filled
+/// to a quarter, by anything, and by the field of the fluid alone, falling to 0. A
+/// free surface is then integrated over its points (a flat one cuts off 0.1 of such a cell), and a
+/// force on a node vanishes with the mass it would move.
+/// Assumptions: current reference; a node's mean pressure is one pressure (fluids that share a
+/// field share it). Related: cell-wise pressure of staggered-grid hydrodynamics; Baumgarten &
+/// Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
+#include <algorithm>
+#include <numbers>
+
+#include "krater/kinematics/mpm/gather.hpp"
+#include "krater/kinematics/mpm/pressure_nodes.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+/// Gauss points of a dual cell along one axis: the whole cell, or its half inside the domain.
+struct CellRule {
+  double N[2][3], d[2][3];  ///< of the three nodes
+  double weight = 0;  ///< of each of the two points, in cells; 0: the cell is not in the domain
+  double at[2];       ///< from the middle node, in cells
+};
+
+KRATER_FORCE_INLINE CellRule cell_rule(int middle, int cells, double inv_h) {
+  CellRule out;
+  if (middle < 1 || middle > cells + 1) return out;
+  const double low = middle == 1 ? 0.0 : -0.5, high = middle == cells + 1 ? 0.0 : 0.5;
+  out.weight = 0.5 * (high - low);
+  constexpr double gauss = 0.57735026918962576;
+  for (int q = 0; q < 2; ++q) {
+    const double t = 0.5 * (low + high) + (q == 0 ? -gauss : gauss) * 0.5 * (high - low);
+    out.at[q] = t;
+    out.N[q][0] = 0.5 * (0.5 - t) * (0.5 - t);
+    out.N[q][1] = 0.75 - t * t;
+    out.N[q][2] = 0.5 * (0.5 + t) * (0.5 + t);
+    out.d[q][0] = -(0.5 - t) * inv_h;
+    out.d[q][1] = -2 * t * inv_h;
+    out.d[q][2] = (0.5 + t) * inv_h;
+  }
+  return out;
+}
+
+template <int Dim>
+constexpr int power_of_three = Dim == 3 ? 27 : 9;
+
+/// Index of a cell of a block along each axis, and in the block's tile.
+template <int Dim>
+struct CellPlace {
+  int i[3] = {0, 0, 0};
+  int tile = 0;
+  KRATER_FORCE_INLINE explicit CellPlace(int cell) {
+    constexpr int E = block_edge(Dim);
+    for (int a = Dim - 1, rest = cell; a >= 0; --a, rest /= E) i[a] = rest % E;
+    for (int a = 0; a < Dim; ++a) tile = tile * tile_edge(Dim) + i[a];
+  }
+};
+/// Offset in the tile of node n of a cell, in nodes.
+template <int Dim>
+constexpr int node_offset(int n) {
+  constexpr int T = tile_edge(Dim);
+  return Dim == 3 ? (n / 9 * T + n / 3 % 3) * T + n % 3 : n / 3 * T + n % 3;
+}
+
+/// int over a cell: call f(weight, r, N, grad) for each of its Gauss points; weight [m^3], N and
+/// grad [Dim][node] of its nodes.
+template <class Frame, class Call>
+KRATER_FORCE_INLINE void for_gauss_points(const GridGeometry& grid, const PatchOrigin& origin,
+                                          const CellPlace<Frame::dim>& place, const Call& call) {
+  constexpr int D = Frame::dim, nodes = power_of_three<D>;
+  CellRule rule[D];
+  double volume = 1;
+  for (int a = 0; a < D; ++a) {
+    rule[a] = cell_rule(static_cast<int>(origin.first[a]) + place.i[a] + 1,
+                        grid.cells[static_cast<unsigned>(a)], grid.inv_h);
+    volume *= grid.h * rule[a].weight;
+  }
+  double N[nodes], grad[D][nodes];
+  for (int point = 0; point < (1 << D); ++point) {
+    double r = 1, weight = volume;
+    if constexpr (Frame::hoop) {
+      r = grid.min[0] + grid.h * (origin.first[0] + place.i[0] + rule[0].at[point & 1]);
+      weight *= 2 * std::numbers::pi * r;
+    }
+    for (int n = 0; n < nodes; ++n) {
+      double value[D], slope[D];
+      for (int a = D - 1, rest = n; a >= 0; --a, rest /= 3) {
+        const int q = (point >> a) & 1;
+        value[a] = rule[a].N[q][rest % 3];
+        slope[a] = rule[a].d[q][rest % 3];
+      }
+      N[n] = 1;
+      for (int a = 0; a < D; ++a) {
+        N[n] *= value[a];
+        grad[a][n] = slope[a];
+        for (int b = 0; b < D; ++b)
+          if (b != a) grad[a][n] *= value[b];
+      }
+    }
+    call(weight, r, N, grad);
+  }
+}
+
+/// Volume that belongs to each node of a tile along one axis, in cells (about the axis [m]).
+template <class Frame>
+KRATER_FORCE_INLINE void node_lengths(const GridGeometry& grid, double first, int axis,
+                                      double* out) {
+  const int cells = grid.cells[static_cast<unsigned>(axis)];
+  for (int i = 0; i < tile_edge(Frame::dim); ++i) {
+    const int index = static_cast<int>(first) + i;
+    double length = index == 1 || index == cells + 1 ? 0.5 : 1;
+    if (index < 1 || index > cells + 1) length = 1.0 / 48;  // int N of the ghost inside the plane
+    if (Frame::hoop && axis == 0) {
+      const double r = std::max(0.0, grid.min[0] + grid.h * (index - 1));
+      // on the axis int N_0 r dr = 13/64 h^2
+      length = index == 1 && grid.min[0] == 0 ? 13.0 / 64 * grid.h : length * r;
+      length *= 2 * std::numbers::pi;
+    }
+    out[i] = length;
+  }
+}
+
+/// Filling of a node's volume from which a cell counts.
+inline constexpr double kFilled = 0.125;
+
+/// Weight of each cell of the block: 0 where it does not take part.
+template <class Frame>
+void weigh_cells(const Patch& patch, const GridGeometry& grid, const double* halo, double* out) {
+  constexpr int D = Frame::dim, T = tile_edge(D);
+  const PatchOrigin origin = origin_of<D>(patch);
+  double length[3][T];
+  double cell_volume = 1;
+  for (int a = 0; a < D; ++a) {
+    node_lengths<Frame>(grid, origin.first[a], a, length[a]);
+    cell_volume *= grid.h;
+  }
+  for (int c = 0; c < kBlockNodes; ++c) {
+    const CellPlace<D> place{c};
+    double weight = 1;
+    for (int a = 0; a < D; ++a) {
+      const int middle = static_cast<int>(origin.first[a]) + place.i[a] + 1;
+      if (middle < 1 || middle > grid.cells[static_cast<unsigned>(a)] + 1) weight = 0;
+    }
+    for (int n = 0; weight > 0 && n < power_of_three<D>; ++n) {
+      double volume = cell_volume;
+      for (int a = D - 1, rest = n; a >= 0; --a, rest /= 3)
+        volume *= length[a][place.i[a] + rest % 3];
+      const double* node = halo + kNodeDoubles * (place.tile + node_offset<D>(n));
+      const double least = kFilled * volume, fill = node[kNodeReach];
+      weight = std::min({weight, fill > least ? fill / std::max(least, 0.5 * fill) - 1 : 0,
+                         fill > 0 ? 2 * node[kNodeOwn] / fill - 1 : 0});
+    }
+    out[c] = std::max(weight, 0.0);
+  }
+}
+
+/// What the sweeps over the points of a patch share.
+template <class Frame, class Shape>
+struct PressureSweep {
+  static constexpr int D = Frame::dim;
+  Patch& patch;
+  const PointColumns& c;
+  const SweepSettings& s;
+  const SweepScratch& w;
+  PatchOrigin origin = origin_of<D>(patch);
+  double* tile = patch.pressure_tile.data();
+  double* cells = tile + tile_nodes(D) * kNodeDoubles;  ///< weights of the block's cells
+
+  KRATER_FORCE_INLINE ReadView column(int offset) const {
+    return state_view(patch, offset, c.stride, w.zeros);
+  }
+  KRATER_FORCE_INLINE Pack cell_weight(int g) const {
+    alignas(64) double index[8];
+    store(index, local_cell<D>(*s.geometry, origin, column(c.grid_position), g).index);
+    return look_up(cells, index);
+  }
+  KRATER_FORCE_INLINE void weights(int g, LaneWeights<D>& lw) const {
+    compute_weights<D, Shape, false>(*s.geometry, origin, column(c.grid_position),
+                                     column(c.half_width), g, lw);
+  }
+  void clear_tile() const {
+    for (int i = 0; i < tile_nodes(D) * kNodeDoubles; i += 8) store(tile + i, Pack(0.0));
+  }
+  KRATER_FORCE_INLINE void scatter(const LaneWeights<D>& lw, Channels<D>& channels) const {
+    transpose8(channels.A);
+    for (int a = 0; a < D; ++a) transpose8(channels.B[a]);
+    for (int l = 0; l < kLanes; ++l) {
+      Pack B[D];
+      for (int a = 0; a < D; ++a) B[a] = channels.B[a][l];
+      scatter_point<D, false>(tile, lw, l, channels.A[l], B);
+    }
+  }
+  template <class Call>
+  void for_cells(const Call& call) const {
+    if (!patch.owns_cells) return;
+    for (int cell = 0; cell < kBlockNodes; ++cell)
+      if (cells[cell] > 0) call(CellPlace<D>{cell}, cells[cell]);
+  }
+};
+
+KRATER_FORCE_INLINE void clear(Pack* channels) {
+  for (int k = 0; k < 8; ++k) channels[k] = 0.0;
+}
+
+/// Nodes hold fillings -> tile: sum S V (p + q), sum S V; and the weights of the cells.
+template <class Frame, class Shape>
+void collect_pressure(const PressureSweep<Frame, Shape>& sweep) {
+  constexpr int D = Frame::dim;
+  weigh_cells<Frame>(sweep.patch, *sweep.s.geometry, sweep.w.pressure_halo, sweep.cells);
+  sweep.clear_tile();
+  LaneWeights<D> lw;
+  Channels<D> channels;
+  for (int g = 0; g < sweep.patch.groups(); ++g) {
+    sweep.weights(g, lw);
+    const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
+    clear(channels.A);
+    for (int a = 0; a < D; ++a) clear(channels.B[a]);
+    channels.A[kNodePressure] =
+        V * (sweep.column(sweep.c.pressure)(g) + sweep.column(sweep.c.viscous)(g));
+    channels.A[kNodeVolume] = V;
+    sweep.scatter(lw, channels);
+  }
+}
+
+/// Nodes hold P and phi -> tile: the force of the cells less that of P_h at the points.
+template <class Frame, class Shape>
+void force_of_pressure(const PressureSweep<Frame, Shape>& sweep) {
+  constexpr int D = Frame::dim;
+  const double* halo = sweep.w.pressure_halo;
+  sweep.clear_tile();
+  LaneWeights<D> lw;
+  Channels<D> channels;
+  PointSums<D> sums;
+  for (int g = 0; g < sweep.patch.groups(); ++g) {
+    sweep.weights(g, lw);
+    gather_group<D>(halo, lw, sums);
+    const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
+    const Pack less = -(sweep.cell_weight(g) * V * sums.V[kNodePressure]);
+    clear(channels.A);
+    if constexpr (Frame::hoop) channels.A[kNodeForce] = less / sweep.column(sweep.c.position)(g, 0);
+    for (int a = 0; a < D; ++a) {
+      clear(channels.B[a]);
+      channels.B[a][kNodeForce + a] = less;
+    }
+    sweep.scatter(lw, channels);
+  }
+  sweep.for_cells([&](const CellPlace<D>& place, double part) {
+    for_gauss_points<Frame>(
+        *sweep.s.geometry, sweep.origin, place,
+        [&](double weight, double r, const double* N, const auto& grad) {
+          double P = 0, share = 0;
+          for (int n = 0; n < power_of_three<D>; ++n) {
+            const double* node = halo + kNodeDoubles * (place.tile + node_offset<D>(n));
+            P += N[n] * node[kNodePressure];
+            share += N[n] * node[kNodeShare];
+          }
+          const double push = part * weight * share * P;
+          for (int n = 0; n < power_of_three<D>; ++n) {
+            double* node = sweep.tile + kNodeDoubles * (place.tile + node_offset<D>(n));
+            for (int a = 0; a < D; ++a) node[kNodeForce + a] += push * grad[a][n];
+            if constexpr (Frame::hoop) node[kNodeForce] += push * N[n] / r;
+          }
+        });
+  });
+}
+
+/// Nodes hold v+ (halo), P and phi (pressure_halo) -> tile: D_j - T_j.
+template <class Frame, class Shape>
+void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
+  constexpr int D = Frame::dim;
+  const double *halo = sweep.w.halo, *shares = sweep.w.pressure_halo;
+  sweep.clear_tile();
+  LaneWeights<D> lw;
+  Channels<D> channels;
+  PointSums<D> sums;
+  for (int g = 0; g < sweep.patch.groups(); ++g) {
+    sweep.weights(g, lw);
+    gather_group<D>(halo, lw, sums);
+    Pack trace = sums.G[0][0];
+    for (int a = 1; a < D; ++a) trace += sums.G[a][a];
+    if constexpr (Frame::hoop) trace += sums.V[0] / sweep.column(sweep.c.position)(g, 0);
+    const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
+    clear(channels.A);
+    for (int a = 0; a < D; ++a) clear(channels.B[a]);
+    channels.A[kNodeDilatation] = -(sweep.cell_weight(g) * V * trace);
+    sweep.scatter(lw, channels);
+  }
+  sweep.for_cells([&](const CellPlace<D>& place, double part) {
+    for_gauss_points<Frame>(
+        *sweep.s.geometry, sweep.origin, place,
+        [&](double weight, double r, const double* N, const auto& grad) {
+          double div = 0, share = 0;
+          for (int n = 0; n < power_of_three<D>; ++n) {
+            const int at = kNodeDoubles * (place.tile + node_offset<D>(n));
+            for (int a = 0; a < D; ++a) div += grad[a][n] * halo[at + a];
+            if constexpr (Frame::hoop) div += N[n] * halo[at] / r;
+            share += N[n] * shares[at + kNodeShare];
+          }
+          const double flux = part * weight * share * div;
+          for (int n = 0; n < power_of_three<D>; ++n)
+            sweep.tile[kNodeDoubles * (place.tile + node_offset<D>(n)) + kNodeDilatation] +=
+                N[n] * flux;
+        });
+  });
+}
+
+/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record.
+template <class Frame, class Shape>
+void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
+  constexpr int D = Frame::dim;
+  const WriteView out{sweep.w.local + sweep.c.local_correction, sweep.c.local_stride};
+  LaneWeights<D> lw;
+  PointSums<D> sums;
+  for (int g = 0; g < sweep.patch.groups(); ++g) {
+    sweep.weights(g, lw);
+    gather_group<D>(sweep.w.pressure_halo, lw, sums);
+    out.set(g, sums.V[kNodeDilatation]);
+  }
+}
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mpm/migrate.hpp
+/// Points that left their block move to the neighbour, the others stay where they are: a full sort
+/// would cost as much as a step (theory 21). Order is fixed: holes are filled from the end of the
+/// patch, arrivals are appended by neighbour (lexicographic), then by their old index; so the bits
+/// do not depend on threads.
+#include "krater/contact/boundary.hpp"
+#include "krater/kinematics/audit.hpp"
+#include "krater/kinematics/mpm/kernels.hpp"
+
+namespace krater {
+
+/// Move leaving points of one patch into its outbox, or out of the computation: through an open
+/// side of the domain, or failed where the body's failure removes. `leavers`: lane mask per group.
+Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+                        const PointColumns& columns, const unsigned char* leavers);
+
+/// Hand the outboxes over; makes and drops patches as needed. Returns true when the topology
+/// changed (relink!).
+bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
+
+/// Points of `body` to the blocks of their present positions, however far that is, and out of the
+/// domain through its open sides; for a new reference configuration. Order: by id-preserving old
+/// order, so the bits do not depend on threads. Relink afterwards.
+Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
+                     const PointColumns& columns);
+
+/// Kinetic energy of point `i` of a patch, affine part included (second moment h^2/4) [J].
+double point_kinetic(const Patch& patch, int i, const PointColumns& columns,
+                     const GridGeometry& geometry);
+
+}  // namespace krater

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mpm/mpm_step.hpp
+/// One time step of the Material Point Method (theory 2-4, 11, 12):
+///   particles_to_grid -> fold symmetry planes -> momentum -> contact -> walls ->
+///   grid_to_particles (+ stresses) -> migrate.
+/// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
+/// the projection. usf: stress from v- first, of the motion of the step before. xpic(m): grid
+/// velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/contact/boundary.hpp"
+#include "krater/contact/contact.hpp"
+#include "krater/core/stopwatch.hpp"
+#include "krater/kinematics/audit.hpp"
+#include "krater/kinematics/energy_watch.hpp"
+#include "krater/kinematics/mpm/kernels.hpp"
+#include "krater/kinematics/mpm/migrate.hpp"
+#include "krater/kinematics/mpm/options.hpp"
+#include "krater/kinematics/mpm/reference.hpp"
+
+namespace krater {
+
+/// Phases of a step, for the account of its cost.
+enum class Phase : std::size_t { scatter, nodes, contact, boundary, gather, migrate };
+inline constexpr std::array<const char*, 6> phase_names{
+    "scatter", "nodes", "contact", "boundary", "gather_and_stress", "migrate"};
+
+/// What limits the time step. By the point's id: patches are sorted anew when points migrate.
+struct TimeStepLimit {
+  double rate = 0;  ///< 1/dt at CFL 1 [1/s]
+  int kind = 0;     ///< 0 wave speed, 1 material velocity, 2 volume change
+  int body = -1;
+  double id = -1;
+};
+
+/// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
+struct StepFault {
+  int patch;
+  Fault fault;
+};
+
+class MpmStep {
+ public:
+  /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
+  /// the same kernels without the affine part, for projections of point velocities alone; on a
+  /// fixed reference with it, for the present positions of nodes.
+  /// `rigid`: bodies that move as a whole; their points are scattered, never gathered.
+  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, ContactSet& contact,
+          RigidBodies& rigid, const Kernels& kernels, const Kernels& plain,
+          const std::vector<BodyKernelData>& bodies);
+
+  /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
+  /// move material by more than 0.3 cells (checked on the nodes, before a point is touched).
+  /// Returns the step taken. Throws StepFault, EnergyError.
+  double advance(double dt);
+
+  /// Wall-clock seconds spent in a phase since construction.
+  double seconds(Phase phase) const { return watch_.seconds(static_cast<std::size_t>(phase)); }
+  Audit& audit() { return audit_; }
+  const Audit& audit() const { return audit_; }
+  const TimeStepLimit& limit() const { return limit_; }  ///< found by the last step
+  /// Call after points were added or read from a checkpoint: links, memory, padding.
+  void relink();
+  /// The step taken last, after a restart [s].
+  void set_last_step(double dt) { last_step_ = dt; }
+  /// Smallest mass of a point, once for all [kg].
+  void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-12 * m; }
+  /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
+  void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
+
+ private:
+  struct GridEnergy {
+    double before, after;
+  };
+  void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
+                         double dt);
+  /// Forces act over `force_share` dt; dt is halved while dv alone would move material too far.
+  GridEnergy momentum(double& dt, double force_share);
+  struct Constraints {
+    BoundaryWork walls;
+    ContactWork contact;
+    double work() const { return walls.work + contact.work; }
+  };
+  /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
+  Constraints constrain(bool projection = false);
+  void begin_rigid(double dt, GridEnergy& energy);
+  void move_rigid(std::size_t patch, const SweepScratch& w);
+  std::vector<int> rigid_losses() const;
+  void book(const Audit::StepEnergies& energies, const Constraints& constraints);
+  void halve_until_safe(double& dt, double max_change);
+  void watch_energy(const GridEnergy& grid, const Constraints& c) const;
+  void name_limit(Patch& patch) const;
+  void account_folds(Constraints& constraints, double dt) const;
+  bool may_sleep(GatherPart part) const;
+  bool asleep(const NodeBlock& block) const;
+  bool may_scatter_ahead(GatherPart part) const;
+  void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
+  void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
+  std::array<double, 3> filter_velocity();
+  void relink_fluids();
+  double* second_record(double* node);
+  void sweep_fluids(PressurePart part, const SweepSettings& s);
+  void sum_fluid_tiles(int first, int last);
+  void fold_fluids(std::initializer_list<int> slots);
+  void mirror_fluids(std::initializer_list<int> slots);
+  template <class Work>
+  void for_fluid_nodes(const Work& work);
+  void collect_pressure(const SweepSettings& s);
+  void add_pressure_force(const SweepSettings& s);
+  void correct_dilatation(const SweepSettings& s);
+  void grid_to_particles(GatherPart part, double dt);
+  void combine_patches(bool forces_worked);
+  void provide_memory();
+  void throw_faults() const;
+  void migrate();
+  bool renew_references();
+  void measure_gaps();
+  SweepSettings settings(double dt) const;
+  SweepScratch scratch();
+
+  double step_usl(double dt);
+  double step_musl(double dt);
+  double step_usf(double dt);
+
+  MethodOptions method_;
+  BlockGrid& grid_;
+  BoundarySet& boundary_;
+  ContactSet& contact_;
+  RigidBodies& rigid_;
+  const Kernels& kernels_;
+  const Kernels& plain_;
+  const std::vector<BodyKernelData>& bodies_;
+  std::vector<PointColumns> columns_;               ///< of the bodies
+  std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
+  std::vector<BodyKernelData> position_as_velocity_;  ///< fixed reference: x and F as v and L
+  void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
+
+  Audit audit_;
+  EnergyWatch energy_watch_;
+  bool loaded_;  ///< body forces act
+  Stopwatch<phase_names.size()> watch_;
+  MomentumSettings node_settings_;
+  std::vector<std::size_t> boundary_blocks_;
+  TimeStepLimit limit_;
+  double last_step_ = 0;  ///< usf: strains are those of the step before [s]
+  AlignedBuffer zeros_, filtered_;
+  AlignedBuffer pressure_nodes_;  ///< second records of all nodes (mpm/pressure_nodes.hpp)
+  std::vector<std::size_t> fluid_patches_, fluid_blocks_;
+  std::vector<Removed> removed_;
+  struct ThreadMemory {
+    AlignedBuffer halo, pressure_halo, local, cells, pressures;
+    std::vector<unsigned char> leavers;
+    double scatter_seconds = 0;  ///< of the scatters ahead in one sweep
+  };
+  std::vector<ThreadMemory> memory_;
+};
+
+}  // namespace krater

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file simulation/simulation.hpp
+/// A scene assembled and stepped: bodies, grid, boundaries, kernels of the best instruction set,
+/// time-step control. Knows nothing of files; what it hands out are the plain structs of
+/// output/results.hpp.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "krater/kinematics/mpm/kernel_levels.hpp"
+#include "krater/kinematics/mpm/mpm_step.hpp"
+#include "krater/output/results.hpp"
+#include "krater/simulation/body.hpp"
+#include "krater/simulation/warnings.hpp"
+
+namespace krater {
+
+/// Totals over the points, measured by a slow independent walk over the columns.
+struct Totals {
+  double count = 0, mass = 0, kinetic = 0, internal = 0;
+  std::array<double, 3> momentum{};
+  double angular_momentum =
+      0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
+};
+
+/// What a fault means, in words.
+const char* text_of(FaultKind kind);
+
+/// Throws InputError where time.first_step or time.min_step exceed the stable step [s].
+void require_steps(const TimeOptions& time, double stable);
+
+class Simulation {
+ public:
+  /// The scene must outlive the simulation. Throws InputError.
+  explicit Simulation(const Scene& scene, IsaLevel level = best_isa_level());
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  double time() const { return time_; }
+  std::int64_t steps() const { return steps_; }
+  double dt() const { return dt_; }            ///< of the last step [s]
+  double dt_free() const { return dt_free_; }  ///< the same before it was cut to an output time [s]
+  /// What the greatest speeds of the start allow; the first steps grow towards it [s].
+  double expected_dt() const { return expected_dt_; }
+  bool done() const { return time_ >= scene_.time.end; }
+  /// Take one step, not past `until` [s]. Throws NumericalError.
+  void step(double until);
+  bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
+  double stable_step() const { return scene_.time.cfl / limit_.rate; }  ///< of the next step [s]
+  const char* limiter() const;         ///< what limits the time step
+  std::string describe_limit() const;  ///< the same with the point and what it has
+  int limiter_kind() const {
+    return limit_.kind;
+  }  ///< 0 wave speed, 1 material velocity, 2 volume change
+
+  IsaLevel isa_level() const { return level_; }
+  std::size_t point_count() const;
+  std::size_t block_count() const { return grid_.patches.size(); }
+  double bytes_per_point() const;
+  const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
+  const BlockGrid& grid() const { return grid_; }
+  BlockGrid& grid() { return grid_; }
+  const RigidBodies& rigid() const { return rigid_; }
+  const MpmStep& stepper() const { return *step_; }
+  const Audit& audit() const { return step_->audit(); }
+  const Warnings& warnings() const { return warnings_; }
+  Warnings& warnings() { return warnings_; }
+  const GridGeometry& geometry() const { return geometry_; }
+  Totals totals(int body = -1) const;  ///< of one body, or of all
+
+  /// Call visit(patch, index in the patch) for every point of a body in order of its id.
+  std::vector<std::pair<int, int>> points_by_id(int body) const;
+  /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
+  double value(int patch, int point, int slot) const {
+    const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+    const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
+    return p.records
+        .data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
+                static_cast<std::size_t>(kLanes * slot + point % kLanes)];
+  }
+  void set_value(int patch, int point, int slot, double x);
+  /// After set_value: what it changed of the energy is work from outside.
+  void book_change();
+
+  Checkpoint save() const;
+  void restore(
+      const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
+
+ private:
+  void place_points();
+  void place_rigid_bodies();
+  void save_body(int body, Checkpoint& out) const;
+  void restore_body(int body, const Checkpoint& checkpoint);
+  void load_rigid_bodies();  ///< body force on them
+  void choose_first_step();
+  void apply_body_force();
+  bool walls_act_on_points() const;
+  std::array<double, 3> apply_point_walls(double dt);  ///< force on the points [N]
+  double next_step(double until);
+  std::string limiting_field(int patch, int point) const;
+  std::string describe_hottest() const;
+  [[noreturn]] void fail_energy(const EnergyError& e);
+  std::string describe_fault(const StepFault& fault) const;
+  std::string describe_point(int patch, int point) const;
+
+  const Scene& scene_;
+  IsaLevel level_;
+  GridGeometry geometry_;
+  std::vector<std::unique_ptr<Body>> bodies_;
+  std::vector<BodyKernelData> kernel_data_;
+  BlockGrid grid_;
+  BoundarySet boundary_;
+  ContactSet contact_;
+  RigidBodies rigid_;
+  EnergyWatch energy_watch_;
+  std::unique_ptr<Kernels> kernels_, plain_kernels_;
+  std::unique_ptr<MpmStep> step_;
+  double time_ = 0, dt_ = 0, dt_free_ = 0,
+         min_step_ = 0;                      ///< dt_free_: before clipping to output times
+  double first_step_ = 0, expected_dt_ = 0;  ///< [s]
+  TimeStepLimit limit_;                      ///< of the next step
+  bool broken_ = false;
+  Warnings warnings_;
+  std::int64_t steps_ = 0;
+};
+
+}  // namespace krater

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/contact/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace krater {
+
+namespace {
+
+// Fill a column may lack and still count as touching: quadrature noise of a few points per cell is
+// several per cent, a gap of g cells costs 1.5 g; 0.25 closes gaps below 0.15 cells.
+constexpr double kFillTolerance = 0.25;
+
+// Distance from the wall, in cells, at which a node of a fixed reference counts as touching.
+constexpr double kGapTolerance = 0.02;
+
+constexpr int kMass = 0, kMomentum = 1, kForce = 4, kVolume = 7;  // after the scatter
+constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;          // after the momentum update
+
+double cube(double x) { return x * x * x; }
+
+/// Part of the nodes' volume that lies inside a plane `beyond` cells before the plane's node.
+struct Fill {
+  double plane, rest;  ///< rest: ghost and inner node
+};
+Fill whole_fill(double beyond) {
+  return {0.5 - 0.75 * beyond + cube(beyond) / 3,
+          1 - (cube(0.5 + beyond) - cube(0.5 - beyond)) / 6};
+}
+
+void set_velocity(double* node, int axis, double value) {
+  node[kChange + axis] += value - node[kVelocity + axis];
+  node[kVelocity + axis] = value;
+}
+
+/// p^2/m of a node, nothing where there is no mass.
+double square_over(double p, double m) { return m > 0 ? p * p / m : 0; }
+
+/// Coulomb: tangential velocities slow down by mu J_n, at most to rest.
+void slow_down(double* node, int normal, double impulse_over_mass) {
+  double slip = 0;
+  for (int b = 0; b < 3; ++b)
+    if (b != normal) slip += node[b] * node[b];
+  slip = std::sqrt(slip);
+  const double loss = slip > 0 ? std::min(1.0, impulse_over_mass / slip) : 0.0;
+  for (int a = 0; a < 3; ++a)
+    if (a != normal) set_velocity(node, a, node[a] * (1 - loss));
+}
+
+}  // namespace
+
+double BoundarySet::position(int axis, int side, double later) const {
+  const auto a = static_cast<unsigned>(axis);
+  const Boundary& condition = conditions_[a][static_cast<unsigned>(side)];
+  const double at = side == 0 ? geometry_.min[a] : geometry_.upper(axis);
+  return condition.travels(axis) ? at + condition.velocity[a] * (time_ + later) : at;
+}
+
+double BoundarySet::last_storage(int axis, int side) const {
+  const auto a = static_cast<unsigned>(axis);
+  if (conditions_[a][static_cast<unsigned>(side)].travels(axis))
+    return geometry_.storage(position(axis, side, step_), axis);
+  return side == 0 ? 1.0 : geometry_.cells[a] + 1.0;
+}
+
+bool BoundarySet::beyond(int axis, int side, double x) const {
+  const auto a = static_cast<unsigned>(axis);
+  if (side != 0) return geometry_.storage(x, axis) > last_storage(axis, 1);
+  return conditions_[a][0].travels(axis) ? x < position(axis, 0, step_) : x < geometry_.min[a];
+}
+
+void BoundarySet::place(Plane& plane) const {
+  const double s = geometry_.storage(position(plane.axis, plane.side), plane.axis);
+  plane.line = static_cast<int>(std::lround(s));
+  plane.beyond = plane.inward * (s - plane.line);
+}
+
+bool BoundarySet::set_time(double time) {
+  time_ = time;
+  bool moved = false;
+  for (Plane& plane : planes_) {
+    if (!plane.condition->travels(plane.axis)) continue;
+    const int before = plane.line;
+    place(plane);
+    moved = moved || plane.line != before;
+  }
+  return moved;
+}
+
+void BoundarySet::relink(BlockGrid& grid) {
+  planes_.clear();
+  for (int axis = 0; axis < geometry_.dimension; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const Boundary& condition =
+          conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)];
+      if (!condition.closed()) continue;
+      Plane& plane = planes_.emplace_back();
+      plane.axis = axis;
+      plane.side = side;
+      plane.inward = side == 0 ? 1.0 : -1.0;
+      plane.condition = &condition;
+      place(plane);
+      add_columns(grid, plane);
+    }
+  list_held_nodes();
+}
+
+void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
+  const int dimension = geometry_.dimension, edge = block_edge(dimension);
+  const int inward = plane.side == 0 ? 1 : -1;
+  for (NodeBlock& block : grid.node_blocks) {
+    const int start = block.key.i[static_cast<unsigned>(plane.axis)] * edge;
+    for (int i = plane.line - 1; i <= plane.line + 1; ++i)  // a node of a column in this block
+      if (i >= start && i < start + edge) block.at_boundary = true;
+    if (plane.line < start || plane.line >= start + edge) continue;
+    const auto field = static_cast<std::size_t>(block.field);
+    const bool rigid = field < rigid_.size() && rigid_[field];
+    if (plane.condition->pushes() && rigid) continue;
+    for (int n = 0; n < kBlockNodes; ++n) {
+      std::array<int, 3> index{};
+      for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)
+        index[static_cast<unsigned>(a)] =
+            block.key.i[static_cast<unsigned>(a)] * edge + rest % edge;
+      if (index[static_cast<unsigned>(plane.axis)] != plane.line) continue;
+      std::array<int, 3> ghost = index, inner = index;
+      ghost[static_cast<unsigned>(plane.axis)] -= inward;
+      inner[static_cast<unsigned>(plane.axis)] += inward;
+      const auto node = [&](const std::array<int, 3>& at) {
+        return grid.find_node(at, block.field);
+      };
+      const Column column{node(ghost), node(index), node(inner), !rigid, 0, {}};
+      if (column.ghost == nullptr || column.inner == nullptr) continue;
+      plane.columns.push_back(column);
+      block.at_wall = block.at_wall || plane.condition->kind == BoundaryKind::wall;
+    }
+  }
+}
+
+void BoundarySet::list_held_nodes() {
+  std::vector<double*> nodes;
+  for (const Plane& plane : planes_)
+    if (plane.condition->pushes())
+      for (const Column& c : plane.columns) nodes.insert(nodes.end(), {c.ghost, c.plane, c.inner});
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  held_.clear();
+  for (double* node : nodes) held_.push_back({node, {}});
+}
+
+void BoundarySet::note_gaps() {
+  for (Plane& plane : planes_) {
+    if (plane.condition->kind != BoundaryKind::wall) continue;
+    const double at = position(plane.axis, plane.side);
+    for (Column& c : plane.columns)
+      c.gap = c.plane[kMass] > 0
+                  ? plane.inward * (c.plane[kMomentum + plane.axis] / c.plane[kMass] - at)
+                  : 0;
+  }
+}
+
+bool BoundarySet::drives() const {
+  return std::any_of(planes_.begin(), planes_.end(),
+                     [](const Plane& p) { return p.condition->drives(); });
+}
+
+void BoundarySet::fold() {
+  for (Plane& plane : planes_) {
+    if (!plane.condition->folds()) continue;
+    plane.fold_loss = 0;
+    for (Column& c : plane.columns) fold_column(plane, c);
+  }
+}
+
+void BoundarySet::fold_column(Plane& plane, Column& c) const {
+  double loss = 0;  // twice the kinetic energy of the odd components
+  c.folded.ghost_mass = c.ghost[kMass];
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<unsigned>(a);
+    const bool odd = plane.odd(a);
+    const double sign = odd ? -1.0 : 1.0;
+    double &p = c.inner[kMomentum + a], &p_0 = c.plane[kMomentum + a],
+           &p_g = c.ghost[kMomentum + a];
+    if (odd) {
+      c.folded.ghost_momentum[k] = p_g;
+      c.folded.ghost_force[k] = c.ghost[kForce + a];
+      c.folded.plane_momentum[k] = p_0;
+      c.folded.plane_force[k] = c.plane[kForce + a];
+      loss += square_over(p, c.inner[kMass]) + square_over(p_0, c.plane[kMass]) +
+              square_over(p_g, c.ghost[kMass]);
+    }
+    p += sign * p_g;
+    c.inner[kForce + a] += sign * c.ghost[kForce + a];
+    if (odd) {
+      loss -= square_over(p, c.inner[kMass] + c.ghost[kMass]);
+      p_0 = c.plane[kForce + a] = 0;
+    }
+  }
+  c.inner[kMass] += c.ghost[kMass];
+  c.inner[kVolume] += c.ghost[kVolume];
+  std::fill(c.ghost, c.ghost + kNodeDoubles, 0.0);
+  if (c.moves_points) plane.fold_loss += 0.5 * loss;
+}
+
+BoundaryWork BoundarySet::folded(double dt, double alpha) const {
+  BoundaryWork sum;
+  for (const Plane& plane : planes_) {
+    if (!plane.condition->folds()) continue;
+    sum.fold_work -= (1 - alpha * alpha) * plane.fold_loss;
+    for (const Column& c : plane.columns) {
+      if (!c.moves_points) continue;
+      const Folded& f = c.folded;
+      for (int a = 0; a < 3; ++a) {
+        if (!plane.odd(a)) continue;
+        const auto k = static_cast<unsigned>(a);
+        const double change = c.inner[kChange + a], minus = c.inner[kVelocity + a] - change;
+        sum.impulse[k] -=
+            2 * (f.ghost_mass * change + dt * f.ghost_force[k]) + dt * f.plane_force[k] +
+            (1 - alpha) * (2 * (f.ghost_momentum[k] + f.ghost_mass * minus) + f.plane_momentum[k]);
+      }
+    }
+  }
+  return sum;
+}
+
+// Booked node by node with the masses of the points, after all planes: columns of two planes that
+// meet in a corner share nodes, and joined masses.
+BoundaryWork BoundarySet::constrain() {
+  BoundaryWork sum;
+  for (Held& h : held_) std::copy_n(h.node, kNodeDoubles, h.before.begin());
+  for (const Plane& plane : planes_)
+    if (plane.condition->pushes())
+      for (const Column& c : plane.columns) sum.columns_in_contact += hold(plane, c) ? 1 : 0;
+  if (sum.columns_in_contact == 0) return sum;
+  for (const Held& h : held_) {
+    const double m = h.before[kNodeMass];
+    for (unsigned a = 0; a < 3; ++a) {
+      const double old = h.before[kVelocity + a], now = h.node[kVelocity + a], change = now - old;
+      sum.impulse[a] += m * change;
+      sum.work += 0.5 * m * (now * now - old * old);
+      // Forces work over the mean of v- and the final v+.
+      sum.force_correction += 0.5 * m * h.before[kChange + a] * change;
+    }
+  }
+  return sum;
+}
+
+bool BoundarySet::touches(const Plane& plane, const Column& c) const {
+  if (fixed_reference_) return c.gap <= kGapTolerance * geometry_.h;
+  const Fill whole = whole_fill(plane.beyond);
+  return c.plane[kVolume] * whole.rest >
+         (1 - kFillTolerance) * whole.plane * (c.inner[kVolume] + c.ghost[kVolume]);
+}
+
+/// False where the column moves on freely.
+bool BoundarySet::hold(const Plane& plane, const Column& c) const {
+  const int n = plane.axis;
+  const Boundary& condition = *plane.condition;
+  const double m_g = c.ghost[kNodeMass], m_0 = c.plane[kNodeMass], m_1 = c.inner[kNodeMass];
+  if (m_0 <= 0) return false;
+  const double c_g = -(1 + plane.beyond) / (1 - plane.beyond),
+               c_0 = -plane.beyond / (1 - plane.beyond);
+  const double mass = m_1 + c_g * c_g * m_g + c_0 * c_0 * m_0;
+  const auto joint = [&](int a) {  // of the inner node, relative to the plane
+    const double w = condition.velocity[static_cast<unsigned>(a)];
+    return mass > 0 ? (m_1 * (c.inner[a] - w) + c_g * (m_g * (c.ghost[a] - w)) +
+                       c_0 * (m_0 * (c.plane[a] - w))) /
+                          mass
+                    : 0;
+  };
+  const double w = condition.velocity[static_cast<unsigned>(n)], u = joint(n);
+  const double push_plane = plane.inward * m_0 * (w + c_0 * u - c.plane[n]),
+               push_rest =
+                   plane.inward * (m_1 * (w + u - c.inner[n]) + m_g * (w + c_g * u - c.ghost[n]));
+  const double push = push_plane + push_rest;
+  if (!(push > 0) || !touches(plane, c)) return false;
+
+  const double together = m_1 + m_g;
+  for (int a = 0; a < 3; ++a) {
+    if (a != n && !condition.drives()) {  // even: the folded node's
+      if (!(together > 0)) continue;
+      const double even = (m_1 * c.inner[a] + m_g * c.ghost[a]) / together;
+      set_velocity(c.inner, a, even);
+      set_velocity(c.ghost, a, even);
+      continue;
+    }
+    const double v = condition.velocity[static_cast<unsigned>(a)], relative = joint(a);
+    set_velocity(c.ghost, a, v + c_g * relative);
+    set_velocity(c.plane, a, v + c_0 * relative);
+    set_velocity(c.inner, a, v + relative);
+  }
+  if (condition.friction > 0) {
+    const double both = std::max(0.0, push_plane) + std::max(0.0, push_rest);
+    const double share = condition.friction * push / both;
+    slow_down(c.plane, n, share * std::max(0.0, push_plane) / m_0);
+    if (together > 0) {
+      slow_down(c.inner, n, share * std::max(0.0, push_rest) / together);
+      slow_down(c.ghost, n, share * std::max(0.0, push_rest) / together);
+    }
+  }
+  c.inner[kNodeMass] = c.ghost[kNodeMass] = together;
+  c.inner[kVolume] = c.ghost[kVolume] = c.inner[kVolume] + c.ghost[kVolume];
+  return true;
+}
+
+void BoundarySet::mirror() const {
+  for (const Plane& plane : planes_) {
+    if (!plane.condition->folds()) continue;
+    for (const Column& c : plane.columns) {
+      for (int a = 0; a < 3; ++a) {
+        const double sign = plane.odd(a) ? -1.0 : 1.0;
+        c.ghost[kVelocity + a] = sign * c.inner[kVelocity + a];
+        c.ghost[kChange + a] = sign * c.inner[kChange + a];
+      }
+      c.ghost[kNodeMass] = c.inner[kNodeMass];
+      c.ghost[kVolume] = c.inner[kVolume];
+    }
+  }
+}
+
+}  // namespace krater

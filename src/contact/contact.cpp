@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "krater/contact/contact_regression.hpp"
+#include "krater/core/parallel.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr int kHalo = 2, kSweeps = 3;
+constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
+
+double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+/// Forces work over the mean of v- and the final v+: an impulse changes the final v+, and so their
+/// work.
+void push(double* node, const std::array<double, 3>& impulse, ContactWork& sum) {
+  const double inverse = 1 / node[kMass];
+  for (int a = 0; a < 3; ++a) {
+    const double change = impulse[static_cast<unsigned>(a)] * inverse;
+    sum.force_correction += 0.5 * node[kMass] * node[kChange + a] * change;
+    node[a] += change;
+    node[kChange + a] += change;
+  }
+}
+
+}  // namespace
+
+ContactSet::ContactSet(const GridGeometry& geometry, const BoundaryConditions& conditions,
+                       bool hoop, bool linear, const ContactOptions& options)
+    : geometry_{geometry},
+      conditions_{conditions},
+      hoop_{hoop},
+      linear_{linear},
+      options_{options},
+      edge_{block_edge(geometry.dimension)},
+      padded_{edge_ + 2 * kHalo},
+      size_{geometry.dimension == 3 ? padded_ * padded_ * padded_ : padded_ * padded_} {
+  for (int a = geometry.dimension - 1, s = 1; a >= 0; --a, s *= padded_) stride_[a] = s;
+}
+
+/// Part of the shape function's volume, along one axis, that lies in the domain; about the axis of
+/// symmetry times the circumference [1 or m].
+double ContactSet::covered(int axis, int index) const {
+  const auto& sides = conditions_[static_cast<unsigned>(axis)];
+  const int last = geometry_.cells[static_cast<unsigned>(axis)] + 1;
+  const bool low = sides[0].mirrors(axis), high = sides[1].mirrors(axis);
+  const bool cut = (low && index == 1) || (high && index == last);
+  if (!hoop_ || axis != 0) return cut ? 0.5 : 1.0;
+  // int S r dr over r > 0, with the ghost's part folded: B-spline 13/64 and 1 + 1/192 at the first
+  // nodes of an axis at r = 0.
+  const double h = geometry_.h, r = geometry_.min[0] + (index - 1) * h;
+  double radius = cut ? 0.5 * r : r;
+  if (low && geometry_.min[0] <= 0 && index == 1) radius = (linear_ ? 1.0 / 6 : 13.0 / 64) * h;
+  if (low && geometry_.min[0] <= 0 && index == 2) radius = (linear_ ? 1 : 193.0 / 192) * h;
+  return 2 * std::numbers::pi * radius;
+}
+
+int ContactSet::mirrored(int axis, int index) const {
+  const auto& sides = conditions_[static_cast<unsigned>(axis)];
+  const int last = geometry_.cells[static_cast<unsigned>(axis)] + 1;
+  if (sides[0].mirrors(axis) && index < 1) return 2 - index;
+  if (sides[1].mirrors(axis) && index > last) return 2 * last - index;
+  return index;
+}
+
+void ContactSet::relink(const BlockGrid& grid) {
+  groups_.clear();
+  if (!options_.active) return;
+  const std::vector<NodeBlock>& blocks = grid.node_blocks;
+  for (std::size_t n = 0; n < blocks.size();) {
+    std::size_t end = n + 1;
+    while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
+    if (end - n > 1) {
+      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}});
+    }
+    n = end;
+  }
+  results_.resize(groups_.size());
+  scratch_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
+}
+
+ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<PointColumns>& columns,
+                              RigidBodies& rigid, bool projection) {
+  for_each(groups_.size(), [&](std::size_t g) {
+    find_contacts(grid, columns, groups_[g], scratch_[static_cast<unsigned>(thread_index())],
+                  rigid);
+  });
+  if (rigid.any()) foretell(grid, rigid);
+  for_each(groups_.size(),
+           [&](std::size_t g) { results_[g] = exchange_group(grid, groups_[g], rigid); });
+  ContactWork sum;
+  for (const ContactWork& r : results_) sum.add(r);
+  if (!projection) hand_over(rigid, sum);
+  return sum;
+}
+
+ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
+  AxisLinks links;
+  for (int a = 0; a < geometry_.dimension; ++a)
+    for (int i = 0; i < padded_; ++i) {
+      const int origin = key.i[static_cast<unsigned>(a)] * edge_;
+      const int index = mirrored(a, origin + i - kHalo);
+      const int offset = index < origin ? -1 : (index >= origin + edge_ ? 1 : 0);
+      AxisLink& link = links[static_cast<unsigned>(a)][static_cast<unsigned>(i)];
+      const double part = geometry_.h * covered(a, index);
+      link = {offset + 1, index - origin - offset * edge_, part > 0 ? 1 / part : 0};
+    }
+  return links;
+}
+
+void ContactSet::link(const BlockGrid& grid, Group& group) const {
+  const int dimension = geometry_.dimension, slots = neighbour_count(dimension);
+  const NodeBlock& home = grid.node_blocks[group.first];
+  std::vector<int> around;
+  for (int f = 0; f < group.fields; ++f)
+    for (int slot = 0; slot < slots; ++slot)
+      around.push_back(
+          grid.find_node_block(shifted(home.key, slot, dimension),
+                               grid.node_blocks[group.first + static_cast<std::size_t>(f)].field));
+  const AxisLinks links = axis_links(home.key);
+  group.sources.resize(static_cast<std::size_t>(size_ * group.fields));
+  group.inverse.resize(static_cast<std::size_t>(size_));
+  for (int n = 0; n < size_; ++n) {
+    int slot = 0, local = 0;
+    double inverse = 1;
+    for (int a = 0; a < dimension; ++a) {
+      const AxisLink& link =
+          links[static_cast<unsigned>(a)][static_cast<unsigned>(n / stride_[a] % padded_)];
+      slot = 3 * slot + link.slot;
+      local = local * edge_ + link.local;
+      inverse *= link.inverse;
+    }
+    group.inverse[static_cast<std::size_t>(n)] = inverse;
+    for (int f = 0; f < group.fields; ++f) {
+      const int block = around[static_cast<std::size_t>(f * slots + slot)];
+      group.sources[static_cast<std::size_t>(f * size_ + n)] =
+          block < 0 ? -1 : block * kBlockNodes + local;
+    }
+  }
+}
+
+void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {
+  const double* nodes = grid.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  scratch.filling.resize(group.sources.size());
+  for (int f = 0; f < group.fields; ++f)
+    for (int n = 0; n < size_; ++n) {
+      const auto i = static_cast<std::size_t>(f * size_ + n);
+      const std::int32_t from = group.sources[i];
+      scratch.filling[i] = from < 0 ? 0.0
+                                    : group.inverse[static_cast<std::size_t>(n)] *
+                                          nodes[kNodeDoubles * from + kVolume];
+    }
+}
+
+void ContactSet::exchange(double* a, double* b, const Contact& contact, double mu,
+                          ContactWork& sum) const {
+  const double reduced = a[kMass] * b[kMass] / (a[kMass] + b[kMass]);
+  std::array<double, 3> apart{}, impulse{};
+  double closing = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    apart[i] = a[i] - b[i];
+    closing += apart[i] * contact.normal[i];
+  }
+  if (!(closing > 0)) return;
+  double slip = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    apart[i] -= closing * contact.normal[i];
+    slip += apart[i] * apart[i];
+  }
+  slip = std::sqrt(slip);
+  const double loss = slip > 0 ? std::min(mu * closing / slip, 1.0) : 0.0;
+  for (unsigned i = 0; i < 3; ++i)
+    impulse[i] = -reduced * (closing * contact.normal[i] + loss * apart[i]);
+  sum.work -= 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
+  push(a, impulse, sum);
+  for (double& J : impulse) J = -J;
+  push(b, impulse, sum);
+  sum.work += 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
+  sum.friction -= reduced * slip * slip * loss * (1 - 0.5 * loss);
+  sum.nodes += 1;
+}
+
+/// A plane that mirrors has taken the odd components of momenta and forces from its nodes; an
+/// impulse must not bring them back. False: nothing is left to push along.
+bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
+  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
+    const auto axis = static_cast<unsigned>(a);
+    const int index = key.i[axis] * edge_ + rest % edge_;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (index != (side == 0 ? 1 : geometry_.cells[axis] + 1)) continue;
+      const BoundaryKind kind = conditions_[axis][side].kind;
+      if (kind == BoundaryKind::sticky) return false;
+      if (kind == BoundaryKind::symmetry) contact.normal[axis] = 0;
+    }
+  }
+  const double length = std::sqrt(square(contact.normal.data()));
+  for (double& n : contact.normal) n /= length;
+  return length > 0;
+}
+
+/// Normal from the points.
+void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& columns,
+                        const Group& group, Contact& contact) const {
+  const NodeBlock& home = grid.node_blocks[group.first];
+  std::array<double, 3> at{};
+  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
+    const auto i = static_cast<unsigned>(a);
+    at[i] = geometry_.min[i] + (home.key.i[i] * edge_ + rest % edge_ - 1) * geometry_.h;
+  }
+  const auto body = [&](int f) {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)].field;
+  };
+  regress_normal(grid, columns, body(contact.a), body(contact.b), at, contact.normal);
+}
+
+void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns,
+                               Group& group, Scratch& scratch, const RigidBodies& rigid) const {
+  group.contacts.clear();
+  group.shares.clear();
+  bool filled = false;
+  const auto block = [&](int f) -> const NodeBlock& {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+  };
+  for (int n = 0; n < kBlockNodes; ++n) {
+    const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
+    int at = 0;
+    for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
+      at += (rest % edge_ + kHalo) * stride_[a];
+    for (int a = 0; a < group.fields; ++a)
+      for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
+        if (!(mass(b) > 0)) continue;
+        if (rigid.find(block(a).field) && rigid.find(block(b).field)) continue;
+        if (group.sources.empty()) link(grid, group);
+        if (!filled) fill(grid, group, scratch);
+        filled = true;
+        Contact contact{n, a, b, {}, false};
+        if (!find_contact(scratch, at, contact)) continue;
+        if (contact.even && options_.normal == ContactNormal::logistic_regression)
+          refine(grid, columns, group, contact);
+        if (block(a).at_boundary && !keep_in_planes(block(a).key, contact)) continue;
+        group.contacts.push_back(contact);
+      }
+  }
+}
+
+ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
+                                       const RigidBodies& rigid) const {
+  ContactWork sum;
+  const auto block = [&](int f) -> NodeBlock& {
+    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+  };
+  const auto touch = [&](const Contact& c) {
+    const bool a_is_rigid = rigid.find(block(c.a).field) != nullptr;
+    if (a_is_rigid || rigid.find(block(c.b).field)) {
+      const Strike strike = strike_of(grid, group, c, a_is_rigid);
+      return exchange(strike, twists_[static_cast<std::size_t>(strike.body)],
+                      share_of(group, strike.body), sum);
+    }
+    exchange(block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
+             options_.friction_of(block(c.a).field, block(c.b).field), sum);
+  };
+  for (std::size_t first = 0, end = 0; first < group.contacts.size(); first = end) {
+    while (end < group.contacts.size() && group.contacts[end].node == group.contacts[first].node)
+      ++end;
+    const double before = sum.nodes;
+    for (int sweep = 0; sweep < (end - first > 1 ? kSweeps : 1); ++sweep)
+      for (std::size_t c = first; c < end; ++c) touch(group.contacts[c]);
+    if (sum.nodes == before) continue;
+    for (std::size_t c = first; c < end; ++c)
+      for (const int f : {group.contacts[c].a, group.contacts[c].b})
+        block(f).still = block(f).inert = false;
+  }
+  return sum;
+}
+
+}  // namespace krater

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the joint of two fields lies, which way it faces, and whether it is closed: from their
+// fillings alone.
+#include <algorithm>
+#include <cmath>
+
+#include "krater/contact/contact.hpp"
+
+namespace krater {
+
+namespace {
+
+// Gap, in cells, at which bodies touch. A third of it loses joints to the unevenness of the
+// lattices (impulse between bars of different impedance 2.4 % low).
+constexpr double kTouch = 0.05;
+// At 10 the corners of a block on a base still plough: 1.3 % too much friction at 20 cells, 0.4 %
+// at 40; without friction it lost 0.03 % of its speed, and now 0.001 %.
+constexpr double kSteeper = 40;
+// A body ends along an axis when it fills the node beyond at most half as well as the node before:
+// faces up to 70 degrees off do.
+constexpr double kEnds = 0.5;
+
+double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+/// Filling of one body at the node before the joint, at it and beyond, from its inside out.
+struct Profile {
+  double before, at, beyond;
+  bool ends() const { return beyond < kEnds * before; }
+  /// How far the body reaches beyond the joint's node [cells].
+  double reach() const {
+    // A face at a: the share of the bend in the drop is a/1.6 within 0.02 for |a| < 1/2,
+    // whatever part of the node's width the body takes.
+    const double bend = (at - 0.5 * (before + beyond)) / (before - beyond);
+    // A body that thins out behind its face bends as if it reached further. The tail beyond the
+    // face, ~ (a + 1/2)^3, knows better; 0.02 is what a lattice of two points per cell may miss.
+    const double tail = std::cbrt(beyond / at + 0.02);
+    return std::min(1.6 * bend, 1.73 * tail - 0.55);
+  }
+};
+
+}  // namespace
+
+/// Central differences, smoothed across by (1 2 1)/4 along each other axis; in units of 1/cell.
+std::array<double, 3> ContactSet::gradient(const double* phi) const {
+  std::array<double, 3> out{};
+  const int dimension = geometry_.dimension;
+  for (int a = 0; a < dimension; ++a) {
+    const int t = stride_[(a + 1) % dimension], u = dimension == 3 ? stride_[(a + 2) % 3] : 0;
+    double slope = 0;
+    for (int i = -1; i <= 1; ++i)
+      for (int j = dimension == 3 ? -1 : 0; j <= (dimension == 3 ? 1 : 0); ++j) {
+        const int across = i * t + j * u;
+        slope += (2 - std::abs(i)) * (2 - std::abs(j)) *
+                 (phi[across + stride_[a]] - phi[across - stride_[a]]);
+      }
+    out[static_cast<unsigned>(a)] = slope / (dimension == 3 ? 32 : 16);
+  }
+  return out;
+}
+
+/// Of the nodes around `at` the one that both bodies fill best: there lies the joint.
+int ContactSet::joint_near(const double* phi_a, const double* phi_b, int at) const {
+  int joint = at;
+  const auto weigh = [&](int n) {
+    if (std::min(phi_a[n], phi_b[n]) > std::min(phi_a[joint], phi_b[joint])) joint = n;
+  };
+  const int depth = geometry_.dimension == 3 ? 1 : 0;
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -depth; k <= depth; ++k)
+        weigh(at + i * stride_[0] + j * stride_[1] + k * stride_[2]);
+  return joint;
+}
+
+/// The widest gap along the axes that have A on one side of the joint and B on the other [cells].
+double ContactSet::gap(const double* phi_a, const double* phi_b) const {
+  double widest = -1;
+  for (int axis = 0; axis < geometry_.dimension; ++axis) {
+    const int s = phi_a[-stride_[axis]] > phi_a[stride_[axis]] ? stride_[axis] : -stride_[axis];
+    const Profile a{phi_a[-s], phi_a[0], phi_a[s]}, b{phi_b[s], phi_b[0], phi_b[-s]};
+    if (a.ends() && b.ends()) widest = std::max(widest, -a.reach() - b.reach());
+  }
+  return widest;
+}
+
+bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) const {
+  const double* phi_a = scratch.filling.data() + contact.a * size_;
+  const double* phi_b = scratch.filling.data() + contact.b * size_;
+  const int joint = joint_near(phi_a, phi_b, at);
+  if (gap(phi_a + joint, phi_b + joint) > kTouch) return false;
+  const std::array<double, 3> grad_a = gradient(phi_a + joint), grad_b = gradient(phi_b + joint);
+  // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
+  // that of the plate. Equal ones are averaged.
+  const double a2 = square(grad_a.data()), b2 = square(grad_b.data());
+  const double lesser = std::pow(std::min(a2, b2) / std::max(a2, b2), kSteeper);
+  const double weight_a = a2 < b2 ? lesser : 1, weight_b = a2 < b2 ? 1 : lesser;
+  contact.even = lesser > 0.5;
+  for (unsigned a = 0; a < 3; ++a) contact.normal[a] = weight_b * grad_b[a] - weight_a * grad_a[a];
+  const double length = std::sqrt(square(contact.normal.data()));
+  for (double& n : contact.normal) n /= length;
+  return length > 0;
+}
+
+}  // namespace krater

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/contact/contact_regression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace krater {
+
+namespace {
+
+constexpr double kReach = 1.5;    // cells: the support of a node
+constexpr double kBeside = 0.25;  // cells: half the distance of two points
+constexpr double kRidge = 1e-2;
+constexpr double kSharp = 4;  // |w| at the start: the labels blend over half a cell
+constexpr int kIterations = 15;
+constexpr double kTolerance = 1e-5;
+
+using Weights = Eigen::Vector4d;  // w_0, w_1, w_2, b
+
+/// Points of a body around the node as (xi, 1), with their label.
+struct Sample {
+  Weights at;
+  double label;
+};
+
+void collect(const BlockGrid& grid, const PointColumns& columns, int body,
+             const std::array<double, 3>& node, double label, std::vector<Sample>& samples) {
+  const GridGeometry& geometry = grid.geometry();
+  const int dimension = geometry.dimension;
+  const auto corner = [&](double sign) {
+    double at[3]{};
+    for (int a = 0; a < dimension; ++a)
+      at[a] = node[static_cast<unsigned>(a)] + sign * kReach * geometry.h;
+    return block_of(geometry, at);
+  };
+  const BlockKey first = corner(-1), last = corner(1);
+  for (BlockKey key = first; key.i[0] <= last.i[0]; ++key.i[0])
+    for (key.i[1] = first.i[1]; key.i[1] <= last.i[1]; ++key.i[1])
+      for (key.i[2] = first.i[2]; key.i[2] <= last.i[2]; ++key.i[2]) {
+        const int p = grid.find_patch(key, body);
+        if (p < 0) continue;
+        const Patch& patch = grid.patches[static_cast<std::size_t>(p)];
+        for (int i = 0; i < patch.count; ++i) {
+          const double* x = patch.records.data() +
+                            static_cast<std::ptrdiff_t>(i / 8) * columns.stride + columns.position +
+                            i % 8;
+          Sample s{{0, 0, 0, 1}, label};
+          bool near = true;
+          for (int a = 0; a < dimension; ++a) {
+            s.at[a] = (x[8 * a] - node[static_cast<unsigned>(a)]) * geometry.inv_h;
+            near = near && std::abs(s.at[a]) < kReach;
+          }
+          if (near) samples.push_back(s);
+        }
+      }
+}
+
+/// Of both bodies only the points that face the other one, seen along the first guess: beyond a
+/// corner one body stands alone, and the plane would lean there.
+void keep_facing(const std::array<double, 3>& normal, int dimension, std::vector<Sample>& samples) {
+  const Eigen::Vector3d n{normal[0], normal[1], normal[2]};
+  std::array<Eigen::Vector3d, 2> along{Eigen::Vector3d{-n[1], n[0], 0}, Eigen::Vector3d::Zero()};
+  if (dimension == 3) {
+    along[0] = n.unitOrthogonal();
+    along[1] = n.cross(along[0]);
+  }
+  for (const Eigen::Vector3d& t : along) {
+    double first = -kReach, last = kReach;
+    for (const double label : {-1.0, 1.0}) {
+      double low = kReach, high = -kReach;
+      for (const Sample& s : samples) {
+        if (s.label != label) continue;
+        low = std::min(low, t.dot(s.at.head<3>()));
+        high = std::max(high, t.dot(s.at.head<3>()));
+      }
+      first = std::max(first, low - kBeside);
+      last = std::min(last, high + kBeside);
+    }
+    std::erase_if(samples, [&](const Sample& s) {
+      const double at = t.dot(s.at.head<3>());
+      return at < first || at > last;
+    });
+  }
+}
+
+}  // namespace
+
+void regress_normal(const BlockGrid& grid, const std::vector<PointColumns>& columns, int body_a,
+                    int body_b, const std::array<double, 3>& node, std::array<double, 3>& normal) {
+  thread_local std::vector<Sample> samples;
+  samples.clear();
+  collect(grid, columns[static_cast<unsigned>(body_a)], body_a, node, -1, samples);
+  collect(grid, columns[static_cast<unsigned>(body_b)], body_b, node, 1, samples);
+  keep_facing(normal, grid.geometry().dimension, samples);
+  const auto of_a =
+      std::count_if(samples.begin(), samples.end(), [](const Sample& s) { return s.label < 0; });
+  if (of_a < 3 || std::ssize(samples) - of_a < 3) return;
+  Weights w{kSharp * normal[0], kSharp * normal[1], kSharp * normal[2], 0};
+  for (int k = 0; k < kIterations; ++k) {
+    Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
+    hessian.diagonal() << kRidge, kRidge, kRidge, 1e-6;
+    Weights slope = hessian.diagonal().cwiseProduct(w);
+    for (const Sample& s : samples) {
+      const double miss =
+          1 / (1 + std::exp(s.label * w.dot(s.at)));  // probability of the other label
+      slope -= s.label * miss * s.at;
+      hessian += miss * (1 - miss) * s.at * s.at.transpose();
+    }
+    Weights step = hessian.ldlt().solve(slope);
+    const double length = step.norm();
+    if (!(length < 1e3)) return;
+    if (length > kSharp) step *= kSharp / length;  // far from the minimum Newton may overshoot
+    w -= step;
+    if (length < kTolerance * w.norm()) break;
+  }
+  const double length = w.head<3>().norm();
+  if (!(length > 0) || w[0] * normal[0] + w[1] * normal[1] + w[2] * normal[2] <= 0) return;
+  for (int a = 0; a < 3; ++a) normal[static_cast<unsigned>(a)] = w[a] / length;
+}
+
+}  // namespace krater

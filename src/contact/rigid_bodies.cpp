@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "krater/contact/rigid.hpp"
+#include "krater/core/errors.hpp"
+
+namespace krater {
+
+void RigidBodies::add(RigidOptions options) {
+  const auto body = static_cast<std::size_t>(options.body);
+  if (of_body_.size() <= body) of_body_.resize(body + 1, -1);
+  of_body_[body] = static_cast<int>(bodies_.size());
+  bodies_.emplace_back(std::move(options));
+}
+
+RigidBody* RigidBodies::find(int body) {
+  return const_cast<RigidBody*>(static_cast<const RigidBodies*>(this)->find(body));
+}
+
+const RigidBody* RigidBodies::find(int body) const {
+  const auto b = static_cast<std::size_t>(body);
+  if (b >= of_body_.size() || of_body_[b] < 0) return nullptr;
+  return &bodies_[static_cast<std::size_t>(of_body_[b])];
+}
+
+void RigidBodies::write_velocities(BlockGrid& grid,
+                                   const std::vector<PointColumns>& columns) const {
+  for (Patch& patch : grid.patches) {
+    const RigidBody* body = find(patch.body);
+    if (!body) continue;
+    const PointColumns& c = columns[static_cast<std::size_t>(patch.body)];
+    for (int i = 0; i < patch.count; ++i) {
+      Eigen::Vector3d x = Eigen::Vector3d::Zero();
+      for (int a = 0; a < grid.geometry().dimension; ++a)
+        x[a] = component(patch, c.stride, c.position + kLanes * a, i);
+      const Eigen::Vector3d v = body->twist().at(x);
+      for (int a = 0; a < grid.geometry().dimension; ++a)
+        component(patch, c.stride, c.velocity + kLanes * a, i) = v[a];
+    }
+    pad(patch, c.stride, c.mass);
+  }
+}
+
+double RigidBodies::kinetic() const {
+  double sum = 0;
+  for (const RigidBody& body : bodies_) sum += body.kinetic();
+  return sum;
+}
+
+double RigidBodies::begin(double dt) {
+  rewind();
+  const double before = kinetic();
+  for (RigidBody& body : bodies_) body.begin(time_, dt);
+  return kinetic() - before;
+}
+
+void RigidBodies::rewind() {
+  for (RigidBody& body : bodies_) body.rewind();
+}
+
+void RigidBodies::finish(const BlockGrid& grid, double dt) {
+  for (RigidBody& body : bodies_) body.finish(dt);
+  sides_.assign(grid.patches.size(), 0);
+}
+
+void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry,
+                       const BoundarySet& boundary, const PointColumns& c, unsigned char* leavers) {
+  const RigidBody& body = *find(patch.body);
+  const int dimension = geometry.dimension;
+  PatchResult& result = patch.result;
+  result.kinetic = result.max_rate = 0;
+  result.limiter = 1;
+  std::fill(leavers, leavers + patch.groups(), static_cast<unsigned char>(0));
+  for (int i = 0; i < patch.count; ++i) {
+    Eigen::Vector3d X = Eigen::Vector3d::Zero();
+    for (int a = 0; a < dimension; ++a)
+      X[a] = component(patch, c.stride, body.options().reference + kLanes * a, i);
+    const Eigen::Vector3d x = body.position(X), v = body.twist().at(x);
+    bool outside = false;
+    for (int a = 0; a < dimension; ++a) {
+      component(patch, c.stride, c.position + kLanes * a, i) = x[a];
+      component(patch, c.stride, c.velocity + kLanes * a, i) = v[a];
+      const double s = geometry.storage(x[a], a);
+      const bool low = s<1, high = s> geometry.cells[static_cast<unsigned>(a)] + 1.0;
+      outside = outside || low || high;
+      if ((low || high) && !boundary.is_open(a, low ? 0 : 1))
+        sides_[p] = static_cast<signed char>(1 + 2 * a + (low ? 0 : 1));
+      if (std::abs(v[a]) * geometry.inv_h > result.max_rate) {
+        result.max_rate = std::abs(v[a]) * geometry.inv_h;
+        result.limiting_point = i;
+      }
+    }
+    result.kinetic += 0.5 * component(patch, c.stride, c.mass, i) * v.squaredNorm();
+    if (outside || block_of(geometry, x.data()) != patch.key)
+      leavers[i / kLanes] = static_cast<unsigned char>(leavers[i / kLanes] | 1U << (i % kLanes));
+  }
+}
+
+void RigidBodies::throw_collisions(const BlockGrid& grid) const {
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    if (sides_[p] == 0) continue;
+    const int side = sides_[p] - 1;
+    throw NumericalError(fmt::format(
+        "rigid body '{}' has run into the {} side of the domain across grid axis {}, which carries "
+        "a condition; a rigid body meets deformable bodies only: enlarge grid.box, or make that "
+        "side open",
+        find(grid.patches[p].body)->options().name, side % 2 == 0 ? "lower" : "upper", side / 2));
+  }
+}
+
+}  // namespace krater

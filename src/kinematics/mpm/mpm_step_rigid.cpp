@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part of a step that only rigid bodies need.
+#include "krater/kinematics/mpm/mpm_step.hpp"
+
+namespace krater {
+
+// Loads and drives act on rigid bodies when the length of the step is settled; their work is
+// external.
+void MpmStep::begin_rigid(double dt, GridEnergy& energy) {
+  if (!rigid_.any()) return;
+  const double work = rigid_.begin(dt);
+  energy.after += work;
+  audit_.step_external += work;
+}
+
+void MpmStep::move_rigid(std::size_t p, const SweepScratch& w) {
+  Patch& patch = grid_.patches[p];
+  const PointColumns& columns = bodies_[static_cast<unsigned>(patch.body)].columns;
+  removed_[p] = {};
+  patch.tile_current = !rigid_.find(patch.body)->moves();
+  if (patch.tile_current) return;
+  rigid_.move(p, patch, grid_.geometry(), boundary_, columns, w.leavers);
+  name_limit(patch);
+  removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, columns, w.leavers);
+}
+
+// Bodies that leave through an open side; before the patches are sorted anew.
+std::vector<int> MpmStep::rigid_losses() const {
+  std::vector<int> out;
+  for (const RigidBody& body : rigid_.all()) {
+    double mass = 0;
+    for (std::size_t p = 0; p < grid_.patches.size(); ++p)
+      if (grid_.patches[p].body == body.options().body) mass += removed_[p].mass;
+    if (mass > 0) out.push_back(body.options().body);
+  }
+  return out;
+}
+
+}  // namespace krater

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part of a step that only xpic needs.
+#include <algorithm>
+
+#include "krater/kinematics/mpm/mpm_step.hpp"
+
+namespace krater {
+
+// Returns the impulse of walls [N s]: they act on each term S+ S dv(l), which enters with a minus
+// sign.
+std::array<double, 3> MpmStep::filter_velocity() {
+  // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
+  // (2017), FMPM form.
+  const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
+  const std::size_t total = grid_.node_blocks.size() * block_doubles;
+  filtered_.reserve(2 * total);
+  double* sum = filtered_.data();
+  double* increment = sum + total;
+  std::array<double, 3> impulse{};
+  if (total == 0) return impulse;
+  double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  std::copy(nodes, nodes + total, sum);
+  for (int order = 1; order < method_.xpic_order; ++order) {
+    std::copy(nodes, nodes + total, increment);
+    grid_to_particles(GatherPart::keep_only, 0);
+    particles_to_grid(plain_, velocity_from_kept_, 0);
+    double unused = 0;
+    momentum(unused, 0);
+    const BoundaryWork term = boundary_.constrain();
+    boundary_.mirror();
+    const BoundaryWork folds = boundary_.folded(0, 0);
+    for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a] + folds.impulse[a];
+    lap(Phase::boundary);
+    for (std::size_t i = 0; i < total; i += kNodeDoubles)
+      for (std::size_t a = i; a < i + 3; ++a) {
+        nodes[a] = increment[a] - nodes[a];
+        sum[a] += nodes[a];
+      }
+  }
+  std::copy(sum, sum + total, nodes);
+  return impulse;
+}
+
+}  // namespace krater

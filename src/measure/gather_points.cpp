@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "krater/measure/measurements.hpp"
+#include "krater/measure/pieces.hpp"
+
+namespace krater {
+
+namespace {
+
+/// A scalar that is wanted, and its slot in every body of a selection (-1: not carried).
+struct WantedScalar {
+  std::vector<double>* values;
+  int slot;
+};
+
+bool carried(const Body& body, const std::string& field) {
+  const std::vector<Column>& columns = body.layout().columns();
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const Column& c) { return c.components == 1 && field == c.field->name; });
+}
+
+int slot_of(const Body& body, const std::string& field) {
+  for (const Column& c : body.layout().columns())
+    if (field == c.field->name) return c.offset / kLanes;
+  return -1;
+}
+
+/// Of the wanted scalars those that all bodies carry; all of these where one is missing, for the
+/// message to the user.
+std::vector<std::string> available(const Simulation& sim, const std::vector<int>& bodies,
+                                   const std::vector<std::string>& fields) {
+  const auto by_all = [&](const std::string& field) {
+    return std::all_of(bodies.begin(), bodies.end(), [&](int b) {
+      return carried(*sim.bodies()[static_cast<std::size_t>(b)], field);
+    });
+  };
+  std::vector<std::string> out;
+  bool missing = false;
+  for (const std::string& field : fields) {
+    if (by_all(field) || field == "failed")
+      out.push_back(field);
+    else
+      missing = true;
+  }
+  if (!missing || bodies.empty()) return out;
+  for (const Column& c : sim.bodies()[static_cast<std::size_t>(bodies.front())]->layout().columns())
+    if (by_all(c.field->name)) out.emplace_back(c.field->name);
+  return out;
+}
+
+void gather_patch(const Simulation& sim, std::size_t patch, const std::vector<WantedScalar>& wanted,
+                  BodyPoints& out) {
+  const Patch& p = sim.grid().patches[patch];
+  const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
+  const int x = body.slot(field::Position::info), v = body.slot(field::Velocity::info);
+  const int m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
+  const int failed = slot_of(body, field::Failed::info.name);
+  const double loose = 0.5 * body.material().density;
+  const int at = static_cast<int>(patch);
+  for (int i = 0; i < p.count; ++i) {
+    Triple position{}, velocity{};
+    for (int a = 0; a < sim.geometry().dimension; ++a) {
+      position[static_cast<std::size_t>(a)] = sim.value(at, i, x + a);
+      velocity[static_cast<std::size_t>(a)] = sim.value(at, i, v + a);
+    }
+    out.x.push_back(position);
+    out.v.push_back(velocity);
+    out.mass.push_back(sim.value(at, i, m));
+    out.density.push_back(sim.value(at, i, rho));
+    out.body.push_back(p.body);
+    out.rubble.push_back(failed >= 0 && sim.value(at, i, failed) > 0.5 &&
+                         out.density.back() < loose);
+    for (const WantedScalar& w : wanted)
+      w.values->push_back(w.slot < 0 ? 0.0 : sim.value(at, i, w.slot));
+  }
+}
+
+}  // namespace
+
+MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies) {
+  const Scene& scene = sim.scene();
+  MeasureContext c;
+  c.frame = scene.frame;
+  c.h = scene.grid.cell;
+  c.min = scene.grid.min;
+  for (int a = 0; a < sim.geometry().dimension; ++a)
+    c.max[static_cast<std::size_t>(a)] = sim.geometry().upper(a);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t s = 0; s < 2; ++s) {
+      const Boundary& side = scene.grid.boundary[a][s];  // one that travels is gone from its place
+      c.boundary[a][s] = side.mirrors(static_cast<int>(a)) ? side.kind : BoundaryKind::open;
+    }
+  // The widest spacing: a surface is told to that.
+  c.points_per_direction = std::numeric_limits<int>::max();
+  for (const int b : bodies) {
+    const auto& per = scene.bodies[static_cast<std::size_t>(b)].points.per_direction;
+    c.points_per_direction =
+        std::min(c.points_per_direction,
+                 *std::min_element(per.begin(), per.begin() + sim.geometry().dimension));
+  }
+  return c;
+}
+
+BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
+                         const std::vector<std::string>& fields) {
+  BodyPoints out;
+  const std::vector<std::string> names = available(sim, bodies, fields);
+  for (const std::string& name : names) out.scalars[name];
+  for (const int b : bodies) {
+    const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
+    std::vector<WantedScalar> wanted;
+    for (auto& [name, values] : out.scalars) wanted.push_back({&values, slot_of(body, name)});
+    for (std::size_t p = 0; p < sim.grid().patches.size(); ++p)
+      if (sim.grid().patches[p].body == b) gather_patch(sim, p, wanted, out);
+  }
+  return out;
+}
+
+std::vector<double> fragment_numbers(const Simulation& sim, int body) {
+  const BodyPoints points = gather_points(sim, {body}, {});
+  const Pieces pieces = connected_pieces(points, measure_context(sim, {body}));
+  std::vector<std::size_t> first(sim.grid().patches.size());  // of every patch among the points
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < first.size(); ++p) {
+    first[p] = count;
+    if (sim.grid().patches[p].body == body)
+      count += static_cast<std::size_t>(sim.grid().patches[p].count);
+  }
+  std::vector<double> out;
+  for (const auto& [patch, i] : sim.points_by_id(body))
+    out.push_back(pieces.of[first[static_cast<std::size_t>(patch)] + static_cast<std::size_t>(i)]);
+  return out;
+}
+
+}  // namespace krater

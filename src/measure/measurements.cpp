@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/measure/measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "krater/core/errors.hpp"
+#include "krater/measure/measure_surface.hpp"
+#include "krater/measure/pieces.hpp"
+#include "krater/measure/snapshot.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+bool needs_face(const MeasureOptions& measure) { return measure.side >= 0; }
+
+bool needs_mass(const MeasureOptions& measure) {
+  return measure.kind == MeasureKind::removed_mass || measure.kind == MeasureKind::mass_lost;
+}
+
+std::vector<std::string> fields_of(const MeasureOptions& measure) {
+  switch (measure.kind) {
+    case MeasureKind::mean:
+    case MeasureKind::maximum:
+    case MeasureKind::minimum:
+      return {measure.field};
+    case MeasureKind::internal_energy:
+      return {"internal_energy"};
+    case MeasureKind::failed_mass:
+    case MeasureKind::mass_lost:
+      return {"failed"};
+    default:
+      return {};
+  }
+}
+
+/// Selected points, gathered once for all measures of one selection.
+class Selections {
+ public:
+  explicit Selections(const Simulation& sim) : sim_{sim} {
+    for (const MeasureOptions& m : sim.scene().measures)
+      for (const std::string& field : fields_of(m)) fields_[m.selection.bodies].push_back(field);
+  }
+
+  MeasureContext context(const MeasureSelection& selection) const {
+    return measure_context(sim_, selection.bodies);
+  }
+
+  const BodyPoints& points(const MeasureSelection& selection) {
+    for (const auto& [known, points] : selected_)
+      if (known == selection) return points;
+    const auto of_bodies = [&](const std::vector<int>& bodies) {
+      return gather_points(sim_, bodies, fields_[bodies]);
+    };
+    MeasureSelection whole;
+    whole.bodies = selection.bodies;
+    if (selection == whole) return keep(selection, of_bodies(selection.bodies));
+    return keep(selection, select(selection, points(whole), context(selection)));
+  }
+
+ private:
+  const BodyPoints& keep(const MeasureSelection& selection, BodyPoints points) {
+    points.memo = std::make_shared<SurfaceMemo>();
+    selected_.emplace_back(selection, std::move(points));
+    return selected_.back().second;
+  }
+
+  const Simulation& sim_;
+  std::map<std::vector<int>, std::vector<std::string>> fields_;
+  std::deque<std::pair<MeasureSelection, BodyPoints>> selected_;  // references stay valid
+};
+
+bool in_row(const MeasureOptions& measure) {
+  return measure.in_history || measure.keep != Keep::now ||
+         measure.kind == MeasureKind::settling_time || measure.kind == MeasureKind::deceleration;
+}
+
+/// By grid axis.
+Json vector_json(Frame frame, const Triple& v) {
+  Json out;
+  for (int a = 0; a < dimension(frame); ++a)
+    out[std::string{axis_name(frame, a)}] = Json::of(v[static_cast<std::size_t>(a)]);
+  return out;
+}
+
+Json piece_json(const Piece& piece, const Scene& scene) {
+  const auto& per = scene.bodies[static_cast<std::size_t>(piece.body)].points.per_direction;
+  Triple size{};
+  for (std::size_t a = 0; a < 3; ++a)
+    size[a] = piece.high[a] - piece.low[a] + scene.grid.cell / per[a];
+  Json j;
+  j["body"] = Json::of(scene.bodies[static_cast<std::size_t>(piece.body)].name);
+  j["number"] = Json::of(piece.number);
+  j["mass"] = Json::of(piece.mass);
+  j["points"] = Json::of(piece.points);
+  j["velocity"] = vector_json(scene.frame, piece.velocity);
+  j["centre"] = vector_json(scene.frame, piece.centre);
+  j["size"] = vector_json(scene.frame, size);
+  return j;
+}
+
+/// Pieces of at least `least_points` one by one; the rest, too small to be resolved, as a whole.
+Json fragments_json(const MeasureOptions& measure, const BodyPoints& points,
+                    const MeasureContext& context, const Scene& scene) {
+  Json j, list = Json::array();
+  std::size_t pieces = 0, count = 0;
+  double mass = 0;
+  for (const Piece& piece : connected_pieces(points, context).list) {
+    if (piece.points >= static_cast<std::size_t>(measure.selection.least_points)) {
+      list.items.push_back(piece_json(piece, scene));
+      continue;
+    }
+    pieces += 1;
+    count += piece.points;
+    mass += piece.mass;
+  }
+  j["least_points"] = Json::of(measure.selection.least_points);
+  j["pieces"] = std::move(list);
+  j["dust"]["pieces"] = Json::of(pieces);
+  j["dust"]["points"] = Json::of(count);
+  j["dust"]["mass"] = Json::of(mass);
+  return j;
+}
+
+Json bodies_json(const Scene& scene, const std::vector<int>& bodies) {
+  if (bodies.size() == 1)
+    return Json::of(scene.bodies[static_cast<std::size_t>(bodies.front())].name);
+  Json names = Json::array();
+  for (const int b : bodies)
+    names.items.push_back(Json::of(scene.bodies[static_cast<std::size_t>(b)].name));
+  return names;
+}
+
+Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStart& start,
+                  const MeasureSeries& series, double value) {
+  Json j;
+  j["value"] = Json::of(value);
+  j["unit"] = Json::of(unit_of(m));
+  j["kind"] = Json::of(info(m.kind).name);
+  j["body"] = bodies_json(scene, m.selection.bodies);
+  if (m.axis >= 0) j["axis"] = Json::of(std::string{axis_name(scene.frame, m.axis)});
+  if (m.kind == MeasureKind::diameter) j["at"] = Json::of(m.at);
+  if (m.kind == MeasureKind::largest_diameter && m.level > 0) j["within"] = Json::of(m.level);
+  if (!m.field.empty()) j["field"] = Json::of(m.field);
+  if (m.kind == MeasureKind::maximum || m.kind == MeasureKind::minimum)
+    j["mass_share"] = Json::of(m.mass_share);
+  if (needs_face(m)) j["face"] = Json::of(start.face);
+  if (m.selection.largest_piece) j["piece"] = Json::of("largest");
+  if (m.keep != Keep::now) {
+    j["keep"] = Json::of(m.keep == Keep::largest ? "largest" : "smallest");
+    j["time"] = Json::of(series.kept_time);
+  }
+  if (!m.reference) return j;
+  j["reference"]["value"] = Json::of(*m.reference);
+  j["reference"]["source"] = Json::of(m.reference_source);
+  j["difference_percent"] = Json::of(100 * (value - *m.reference) / *m.reference);
+  return j;
+}
+
+}  // namespace
+
+Measurements::Measurements(const Simulation& sim) {
+  Selections selections{sim};
+  for (const MeasureOptions& m : sim.scene().measures) {
+    MeasureStart start;
+    if (needs_mass(m))
+      for (const double mass : selections.points(m.selection).mass) start.mass += mass;
+    if (needs_face(m)) {
+      MeasureSelection owner = m.selection;
+      if (m.target >= 0) {
+        owner = {};
+        owner.bodies = {m.target};
+      }
+      start.face = face_position(m, selections.points(owner), selections.context(owner));
+    }
+    start_.push_back(start);
+  }
+  series_.resize(start_.size());
+}
+
+void Measurements::check(const Simulation& sim) const {
+  const std::vector<Quantity> columns = history_row(sim);
+  for (const MeasureOptions& m : sim.scene().measures)
+    for (const Quantity& column : columns)
+      if (m.in_history && column.name == m.name)
+        throw InputError(
+            m.where + ": the history has a column of this name; call the measure " +
+            sim.scene().bodies.at(static_cast<std::size_t>(m.selection.bodies.at(0))).name + "_" +
+            m.name + ", or say history: false");
+  Selections selections{sim};
+  for (std::size_t i = 0; i < start_.size(); ++i) {
+    const MeasureOptions& m = sim.scene().measures[i];
+    evaluate(m, selections.points(m.selection), selections.context(m.selection), start_[i]);
+  }
+}
+
+/// None of a broken state: its positions may be anything.
+std::vector<double> Measurements::values(const Simulation& sim, bool all) {
+  std::vector<double> out(start_.size(), kNothing);
+  if (sim.broken()) return out;
+  Selections selections{sim};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const MeasureOptions& m = sim.scene().measures[i];
+    if (!all && !in_row(m)) continue;
+    const BodyPoints& points = selections.points(m.selection);
+    out[i] = follow(m, series_[i], sim.time(),
+                    evaluate(m, points, selections.context(m.selection), start_[i]));
+  }
+  return out;
+}
+
+std::vector<Quantity> Measurements::titles(const Scene& scene) const {
+  std::vector<Quantity> columns;
+  for (const MeasureOptions& m : scene.measures)
+    if (m.in_history) columns.push_back({m.name, unit_of(m), kNothing});
+  return columns;
+}
+
+std::vector<Quantity> Measurements::row(const Simulation& sim) {
+  const std::vector<double> now = values(sim, false);
+  std::vector<Quantity> columns = titles(sim.scene());
+  std::size_t column = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (sim.scene().measures[i].in_history) columns[column++].value = now[i];
+  return columns;
+}
+
+void Measurements::summarize(const Simulation& sim, Json& summary) {
+  const Scene& scene = sim.scene();
+  const std::vector<double> now = values(sim, true);
+  Json measures, fragments;
+  Selections selections{sim};
+  nothing_.clear();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const MeasureOptions& m = scene.measures[i];
+    Json& measure = measures[m.name] = measure_json(m, scene, start_[i], series_[i], now[i]);
+    if (!sim.broken() &&
+        rarefied(m, selections.points(m.selection), selections.context(m.selection)))
+      measure["rarefied"] = Json::of(true);
+    if (std::isnan(now[i]) && !sim.broken() && selections.points(m.selection).mass.empty())
+      nothing_.push_back(m.name);
+    if (m.kind != MeasureKind::fragments || sim.broken()) continue;
+    MeasureSelection with_dust = m.selection;
+    with_dust.least_points = 0;
+    fragments[m.name] =
+        fragments_json(m, selections.points(with_dust), selections.context(m.selection), scene);
+  }
+  summary["measures"] = std::move(measures);
+  if (!fragments.items.empty()) summary["fragments"] = std::move(fragments);
+}
+
+void Measurements::save(Checkpoint& checkpoint, const Scene& scene) const {
+  std::string names;
+  for (std::size_t i = 0; i < series_.size(); ++i) {
+    const MeasureSeries& s = series_[i];
+    std::vector<double> x{s.kept, s.kept_time};
+    x.insert(x.end(), s.time.begin(), s.time.end());
+    x.insert(x.end(), s.sample.begin(), s.sample.end());
+    checkpoint.blobs.push_back({"measures/" + std::to_string(i), {x.size()}, std::move(x), {}, {}});
+    names += scene.measures[i].name + "\n";
+  }
+  if (!names.empty()) checkpoint.blobs.push_back({"measures/names", {}, {}, {}, std::move(names)});
+}
+
+void Measurements::restore(const Checkpoint& checkpoint, const Scene& scene,
+                           const std::vector<std::string>& changed) {
+  const CheckpointBlob* names = checkpoint.find("measures/names");
+  if (names == nullptr) return;
+  std::istringstream lines{names->text};
+  std::string name;
+  for (std::size_t number = 0; std::getline(lines, name); ++number) {
+    const CheckpointBlob* blob = checkpoint.find("measures/" + std::to_string(number));
+    const auto at = std::find_if(scene.measures.begin(), scene.measures.end(),
+                                 [&name](const MeasureOptions& m) { return m.name == name; });
+    const bool other = std::find(changed.begin(), changed.end(), name) != changed.end();
+    if (at == scene.measures.end() || other || blob == nullptr || blob->doubles.size() < 2)
+      continue;
+    const std::vector<double>& x = blob->doubles;
+    const auto half = static_cast<std::ptrdiff_t>((x.size() - 2) / 2);
+    MeasureSeries& s = series_[static_cast<std::size_t>(at - scene.measures.begin())];
+    s.kept = x[0];
+    s.kept_time = x[1];
+    s.time.assign(x.begin() + 2, x.begin() + 2 + half);
+    s.sample.assign(x.begin() + 2 + half, x.end());
+  }
+}
+
+}  // namespace krater

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/measure/snapshot.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "krater/measure/measurements.hpp"
+
+namespace krater {
+
+namespace {
+
+using Points = std::vector<std::pair<int, int>>;
+
+const std::vector<std::string>& tensor_names(Frame f) {
+  static const std::vector<std::string> cartesian{"xx", "yy", "zz", "yz", "xz", "xy"};
+  static const std::vector<std::string> cylindrical{"rr", "tt", "zz", "tz", "rz", "rt"};
+  return f == Frame::axisymmetric ? cylindrical : cartesian;
+}
+
+const std::vector<std::string>& vector_names(Frame f) {
+  static const std::vector<std::string> cartesian{"x", "y", "z"};
+  static const std::vector<std::string> cylindrical{"r", "t", "z"};
+  return f == Frame::axisymmetric ? cylindrical : cartesian;
+}
+
+/// Columns that serve the method, not the user.
+bool is_internal(const char* name) {
+  static const std::set<std::string> names{
+      "id",     "position",      "affine_velocity",   "shock_indicator",  "half_width",
+      "domain", "grid_velocity", "body_acceleration", "deviatoric_stress"};
+  return names.contains(name);
+}
+
+bool asked_for(const Scene& scene, const char* name) {
+  for (const std::string& f : scene.output.fields)
+    if (f == name) return true;
+  return false;
+}
+
+/// Values of a column, vectors along grid axes widened to space.
+FieldArray column_array(const Simulation& sim, const Column& c, const Points& points) {
+  const Frame frame = sim.scene().frame;
+  FieldArray out;
+  out.name = c.field->name;
+  out.unit = c.field->unit;
+  out.meaning = c.field->meaning;
+  const bool is_vector = c.field->components == kPerAxis;
+  out.components = is_vector ? 3 : c.components;
+  if (is_vector) out.component_names = vector_names(frame);
+  if (c.components == 6) out.component_names = tensor_names(frame);
+  out.values.assign(points.size() * static_cast<std::size_t>(out.components), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int k = 0; k < c.components; ++k) {
+      const auto at = static_cast<std::size_t>(is_vector ? tensor_axis(frame, k) : k);
+      out.values[i * static_cast<std::size_t>(out.components) + at] =
+          sim.value(points[i].first, points[i].second, c.offset / kLanes + k);
+    }
+  return out;
+}
+
+void add_stress(const Simulation& sim, const Body& body, const Points& points, BodyFrame& out) {
+  const int s = body.slot(field::DeviatoricStress::info), p = body.slot(field::Pressure::info);
+  if (s < 0) return;
+  FieldArray stress{"stress",
+                    "Pa",
+                    "Cauchy stress, tension positive, without viscosity",
+                    6,
+                    tensor_names(sim.scene().frame),
+                    {}};
+  FieldArray mises{"von_mises", "Pa", "von Mises stress sqrt(3/2 s:s)", 1, {}, {}};
+  for (const auto& [patch, i] : points) {
+    const double pressure = p < 0 ? 0 : sim.value(patch, i, p);
+    double square = 0;
+    for (int k = 0; k < 6; ++k) {
+      const double x = sim.value(patch, i, s + k);
+      square += (k < 3 ? 1 : 2) * x * x;
+      stress.values.push_back(k < 3 ? x - pressure : x);
+    }
+    mises.values.push_back(std::sqrt(1.5 * square));
+  }
+  out.fields.push_back(std::move(stress));
+  out.fields.push_back(std::move(mises));
+}
+
+void add(std::vector<Quantity>& row, std::string name, std::string unit, double value) {
+  row.push_back({std::move(name), std::move(unit), value});
+}
+
+/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J].
+double deviatoric_energy(const Simulation& sim) {
+  double sum = 0;
+  for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
+    const Body& body = *sim.bodies()[b];
+    const int s = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info),
+              rho = body.slot(field::Density::info);
+    const double G = body.material().shear_modulus;
+    if (s < 0 || G <= 0) continue;
+    const int phi = body.degrades() ? body.slot(field::Damage::info) : -1;
+    for (std::size_t p = 0; p < sim.grid().patches.size(); ++p) {
+      const Patch& patch = sim.grid().patches[p];
+      if (patch.body != static_cast<int>(b)) continue;
+      for (int i = 0; i < patch.count; ++i) {
+        double square = 0;
+        for (int k = 0; k < 6; ++k) {
+          const double x = sim.value(static_cast<int>(p), i, s + k);
+          square += (k < 3 ? 1 : 2) * x * x;
+        }
+        sum += sim.value(static_cast<int>(p), i, m) * square /
+               (4 * G * sim.value(static_cast<int>(p), i, rho) *
+                (phi < 0 ? 1 : 1 - sim.value(static_cast<int>(p), i, phi)));
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+OutputFrame make_frame(const Simulation& sim, int number) {
+  OutputFrame out;
+  out.number = number;
+  out.time = sim.time();
+  out.step = sim.steps();
+  const Frame frame = sim.scene().frame;
+  for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
+    const Body& body = *sim.bodies()[b];
+    const Points points = sim.points_by_id(static_cast<int>(b));
+    BodyFrame bf;
+    bf.body = body.name();
+    const int id = body.slot(field::Id::info), x = body.slot(field::Position::info);
+    for (const auto& [patch, i] : points) {
+      bf.ids.push_back(static_cast<std::int64_t>(sim.value(patch, i, id)));
+      std::array<double, 3> space{};
+      for (int a = 0; a < dimension(frame); ++a)
+        space[static_cast<std::size_t>(tensor_axis(frame, a))] = sim.value(patch, i, x + a);
+      bf.coordinates.insert(bf.coordinates.end(), space.begin(), space.end());
+    }
+    for (const Column& c : body.layout().columns())
+      if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
+        bf.fields.push_back(column_array(sim, c, points));
+    add_stress(sim, body, points, bf);
+    if (asked_for(sim.scene(), kFragmentField))
+      bf.fields.push_back({kFragmentField,
+                           "1",
+                           "connected piece of its body, 0 the heaviest",
+                           1,
+                           {},
+                           fragment_numbers(sim, static_cast<int>(b))});
+    out.bodies.push_back(std::move(bf));
+  }
+  return out;
+}
+
+std::vector<Quantity> history_row(const Simulation& sim) {
+  const Audit& a = sim.audit();
+  const Totals t = sim.totals();
+  std::vector<Quantity> row;
+  add(row, "time", "s", sim.time());
+  add(row, "step", "1", static_cast<double>(sim.steps()));
+  add(row, "dt", "s", sim.dt());
+  add(row, "dt_limiter", "1", sim.limiter_kind());
+  add(row, "kinetic_energy", "J", t.kinetic);
+  add(row, "internal_energy", "J", t.internal);
+  add(row, "total_energy", "J", t.kinetic + t.internal);
+  add(row, "deviatoric_elastic_energy", "J", deviatoric_energy(sim));
+  add(row, "plastic_work", "J", a.plastic_work);
+  add(row, "viscous_work", "J", a.viscous_work);
+  add(row, "transfer_loss", "J", a.transfer_in + a.transfer_out);
+  add(row, "time_centring", "J", a.time_centring);
+  add(row, "wall_work", "J", a.wall_work);
+  add(row, "contact_work", "J", a.contact_work);
+  add(row, "friction_work", "J", a.friction_work);
+  add(row, "external_work", "J", a.external_work);
+  add(row, "removed_energy", "J", a.removed_energy);
+  add(row, "energy_residual", "J", a.residual(t.kinetic, t.internal));
+  add(row, "energy_error_fraction", "1", a.error_fraction());
+  add(row, "mass", "kg", t.mass);
+  const Frame frame = sim.scene().frame;
+  for (int k = 0; k < dimension(frame); ++k)
+    add(row, "momentum_" + std::string{axis_name(frame, k)}, "kg m/s",
+        t.momentum[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < dimension(frame); ++k)
+    add(row, "wall_impulse_" + std::string{axis_name(frame, k)}, "N s",
+        a.wall_impulse[static_cast<std::size_t>(k)]);
+  add(row, "angular_momentum", "kg m^2/s", t.angular_momentum);
+  add(row, "removed_points", "1", a.removed_points);
+  add(row, "removed_mass", "kg", a.removed_mass);
+  add(row, "wall_columns", "1", a.wall_columns);
+  add(row, "contact_pairs", "1", a.contact_pairs);
+  for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
+    const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
+    add(row, sim.bodies()[b]->name() + ".kinetic_energy", "J", body.kinetic);
+    for (int k = 0; k < dimension(frame); ++k)
+      add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)},
+          "m/s", body.mass > 0 ? body.momentum[static_cast<std::size_t>(k)] / body.mass : 0.0);
+    const RigidBody* rigid = sim.rigid().find(static_cast<int>(b));
+    for (int k = 0; rigid && k < dimension(frame); ++k)
+      add(row, sim.bodies()[b]->name() + ".contact_impulse_" + std::string{axis_name(frame, k)},
+          "N s", rigid->received()[k]);
+  }
+  return row;
+}
+
+Json audit_json(const Simulation& sim) {
+  const Audit& a = sim.audit();
+  const Totals t = sim.totals();
+  Json j;
+  const double start = a.initial_kinetic + a.initial_internal,
+               residual = a.residual(t.kinetic, t.internal);
+  j["initial_energy"] = Json::of(start);
+  j["kinetic_energy"] = Json::of(t.kinetic);
+  j["internal_energy"] = Json::of(t.internal);
+  j["plastic_work"] = Json::of(a.plastic_work);
+  j["viscous_work"] = Json::of(a.viscous_work);
+  j["internal_work"] = Json::of(a.internal_work);
+  j["external_work"] = Json::of(a.external_work);
+  j["wall_work"] = Json::of(a.wall_work);
+  j["contact_work"] = Json::of(a.contact_work);
+  j["friction_work"] = Json::of(a.friction_work);
+  j["transfer_in"] = Json::of(a.transfer_in);
+  j["transfer_out"] = Json::of(a.transfer_out);
+  j["time_centring"] = Json::of(a.time_centring);
+  j["removed_energy"] = Json::of(a.removed_energy);
+  j["energy_residual"] = Json::of(residual);
+  j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);
+  j["energy_error_fraction"] = Json::of(a.error_fraction());
+  j["mass"] = Json::of(t.mass);
+  j["removed_mass"] = Json::of(a.removed_mass);
+  for (int k = 0; k < dimension(sim.scene().frame); ++k) {
+    const std::string axis{axis_name(sim.scene().frame, k)};
+    j["momentum_" + axis] = Json::of(t.momentum[static_cast<std::size_t>(k)]);
+    j["wall_impulse_" + axis] = Json::of(a.wall_impulse[static_cast<std::size_t>(k)]);
+    j["removed_momentum_" + axis] = Json::of(a.removed_momentum[static_cast<std::size_t>(k)]);
+  }
+  j["angular_momentum"] = Json::of(t.angular_momentum);
+  Json events;
+  events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));
+  events["removed_failed_points"] = Json::of(static_cast<std::int64_t>(a.removed_failed));
+  events["sound_speed_floors"] = Json::of(static_cast<std::int64_t>(a.sound_speed_floors));
+  events["hugoniot_poles"] = Json::of(static_cast<std::int64_t>(a.hugoniot_poles));
+  events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));
+  events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
+  events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
+  events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
+  events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
+  events["penetrations"] = Json::of(static_cast<std::int64_t>(a.penetrations));
+  events["deepest_reflection_cells"] = Json::of(a.deepest_reflection);
+  events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
+  j["events"] = events;
+  return j;
+}
+
+}  // namespace krater

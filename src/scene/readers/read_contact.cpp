@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "scene/readers/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kFriction{"friction", "1", Range::non_negative, 0,
+                                  "Coulomb coefficient of all pairs"};
+constexpr ParameterInfo kPairFriction{"friction", "1", Range::non_negative, kRequired,
+                                      "Coulomb coefficient of this pair"};
+
+/// Index of the body a node names, or -1 after a problem.
+int read_body_name(const Node& node, Reading& reading) {
+  const std::optional<std::string> name = read_word(node, reading.problems);
+  if (!name) return -1;
+  std::vector<std::string> known;
+  for (std::size_t b = 0; b < reading.scene.bodies.size(); ++b) {
+    known.push_back(reading.scene.bodies[b].name);
+    if (known.back() == *name) return static_cast<int>(b);
+  }
+  if (known.empty()) return -1;  // said already
+  report_unknown(node, "body", *name, known, reading.problems);
+  return -1;
+}
+
+/// `{between: [a, b], friction: 0.1}`.
+Node read_pair(const Node& item, Reading& reading) {
+  ContactOptions& contact = reading.scene.contact;
+  Block block{&item, item.path, item, reading.problems};
+  const Node* between = block.require("between", "two bodies, for example [projectile, plate]");
+  const double friction = block.number(kPairFriction);
+  if (between && (between->kind != Node::Kind::list || between->items.size() != 2)) {
+    block.fail(*between, "expected two bodies, for example [projectile, plate]");
+  } else if (between) {
+    const int a = read_body_name(between->items[0], reading),
+              b = read_body_name(between->items[1], reading);
+    if (a >= 0 && a == b) block.fail(*between, "a body is not in contact with itself");
+    if (a >= 0 && b >= 0) {
+      const auto at = [&](int i, int j) -> double& {
+        return contact.friction[static_cast<std::size_t>(i * contact.fields + j)];
+      };
+      at(a, b) = at(b, a) = friction;
+      block.record(
+          "between",
+          list_node({string_node(reading.scene.bodies[static_cast<std::size_t>(a)].name),
+                     string_node(reading.scene.bodies[static_cast<std::size_t>(b)].name)}));
+    }
+  }
+  return block.finish();
+}
+
+}  // namespace
+
+Node read_contact(const Node& node, Reading& reading) {
+  ContactOptions& contact = reading.scene.contact;
+  Block block{&node, node.path, node, reading.problems};
+  contact.active = true;
+  contact.fields = static_cast<int>(reading.scene.bodies.size());
+  contact.normal =
+      block.choice<ContactNormal>("normal",
+                                  {{"volume_gradient", ContactNormal::volume_gradient},
+                                   {"logistic_regression", ContactNormal::logistic_regression}},
+                                  contact.normal);
+  const double friction = block.number(kFriction);
+  contact.friction.assign(static_cast<std::size_t>(contact.fields * contact.fields), friction);
+  std::vector<Node> pairs;
+  if (const Node* list = block.find("pairs")) {
+    if (list->kind != Node::Kind::list)
+      block.fail(*list, "expected a list of pairs, for example [{between: [a, b], friction: 0.1}]");
+    else
+      for (const Node& item : list->items) pairs.push_back(read_pair(item, reading));
+  }
+  if (!pairs.empty()) block.record("pairs", list_node(pairs));
+  return block.finish();
+}
+
+}  // namespace krater::scene

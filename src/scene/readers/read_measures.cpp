@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "scene/readers/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kFromLowerEnd{
+    "from_lower_end", "m", Range::non_negative, kRequired,
+    "distance from the body's lower end at the time of measuring"};
+
+/// A required word out of a list; "" after a problem.
+std::string required_word(Block& block, const char* key, const std::string& what,
+                          const std::vector<std::string>& known, const std::string& hint) {
+  const Node* node = block.require(key, hint);
+  if (!node) return "";
+  const std::optional<std::string> word = read_word(*node, block.problems());
+  if (!word) return "";
+  if (std::find(known.begin(), known.end(), *word) == known.end()) {
+    report_unknown(*node, what, *word, known, block.problems());
+    return "";
+  }
+  block.record(key, string_node(*word));
+  return *word;
+}
+
+/// `at: {z: 5 mm}` or `at: {from_lower_end: 5 mm}`.
+void read_at(const Node* node, MeasureOptions& measure, Block& parent, Reading& reading) {
+  if (!node) return;
+  Block block{node, node->path, parent.place(), reading.problems};
+  const ParameterInfo height{"z", "m", Range::any, kRequired, "position on the z axis"};
+  const std::optional<double> z = block.optional_number(height);
+  const std::optional<double> above = block.optional_number(kFromLowerEnd);
+  if (!node->find("z") == !node->find("from_lower_end")) {
+    block.fail("expected one of {z: ...} and {from_lower_end: ...}");
+  }
+  measure.at = z.value_or(above.value_or(0.0));
+  measure.at_from_end = above.has_value();
+  block.record(above ? kFromLowerEnd.key : height.key, number_node(measure.at));
+  parent.record("at", block.finish());
+}
+
+/// `within: {from_lower_end: 2 mm}`.
+void read_within(MeasureOptions& measure, Block& parent, Reading& reading) {
+  const Node* node = parent.find("within");
+  if (!node) return;
+  Block block{node, node->path, parent.place(), reading.problems};
+  measure.level = block.number({"from_lower_end", "m", Range::positive, kRequired,
+                                "greatest distance from the body's lower end"});
+  parent.record("within", block.finish());
+}
+
+/// The share of debris_extent is held by it, that of an extreme lies beyond it: 0 is one point.
+void read_mass_share(Block& block, MeasureOptions& measure) {
+  const bool extent = measure.kind == MeasureKind::debris_extent;
+  measure.mass_share =
+      block.number({"mass_share", "1", Range::fraction, extent ? 1.0 : kExtremeShare,
+                    extent ? "share of the mass that the extent holds"
+                           : "share of the mass that reaches the value; 0: a single point"});
+  if (extent && measure.mass_share == 0) block.fail("mass_share must be positive");
+}
+
+/// The grid axis of a word, -1: none. In the half section the first axis is called r or x, so that
+/// one scene serves both 2D frames.
+int axis_of(Frame frame, std::string_view word) {
+  if (dimension(frame) == 2 && (word == "x" || word == "r")) return 0;
+  return axis_from_name(frame, word).value_or(-1);
+}
+
+std::vector<std::string> axis_names(Frame frame) {
+  std::vector<std::string> axes;
+  for (int axis = 0; axis < dimension(frame); ++axis) axes.emplace_back(axis_name(frame, axis));
+  return axes;
+}
+
+constexpr std::array<const char*, 2> kSides{"_min", "_max"};
+
+/// "z_max" -> axis and side; axis -1: none.
+std::pair<int, int> side_of(Frame frame, std::string_view word) {
+  for (int side = 0; side < 2; ++side)
+    if (word.ends_with(kSides[static_cast<std::size_t>(side)]))
+      return {axis_of(frame, word.substr(0, word.size() - 4)), side};
+  return {-1, 0};
+}
+
+std::string side_name(Frame frame, int axis, int side) {
+  return std::string{axis_name(frame, axis)} + kSides[static_cast<std::size_t>(side)];
+}
+
+int read_axis(Block& block, Reading& reading) {
+  const Frame frame = reading.scene.frame;
+  const std::vector<std::string> axes = axis_names(frame);
+  const Node* node = block.require("axis", "one of " + join(axes));
+  if (!node) return -1;
+  const std::optional<std::string> word = read_word(*node, reading.problems);
+  if (!word) return -1;
+  const int axis = axis_of(frame, *word);
+  if (axis < 0) {
+    report_unknown(*node, "axis", *word, axes, reading.problems);
+    return -1;
+  }
+  block.record("axis", string_node(std::string{axis_name(frame, axis)}));
+  return axis;
+}
+
+/// `face: z_max`: the face whose outward normal is +z.
+void read_face(Block& block, MeasureOptions& measure, bool along_z, Reading& reading) {
+  const Frame frame = reading.scene.frame;
+  std::vector<std::string> faces;
+  for (int axis = along_z ? dimension(frame) - 1 : 0; axis < dimension(frame); ++axis)
+    for (int side = 0; side < 2; ++side) faces.push_back(side_name(frame, axis, side));
+  const Node* node = block.require("face", "one of " + join(faces));
+  if (!node) return;
+  const std::optional<std::string> word = read_word(*node, reading.problems);
+  if (!word) return;
+  const auto [axis, side] = side_of(frame, *word);
+  if (axis < 0 || (along_z && axis != dimension(frame) - 1)) {
+    report_unknown(*node, "face", *word, faces, reading.problems);
+    return;
+  }
+  measure.axis = axis;
+  measure.side = side;
+  block.record("face", string_node(side_name(frame, axis, side)));
+}
+
+std::vector<std::string> body_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const BodyOptions& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+/// Index of a body's name; -1 after a problem.
+int read_body(const Node& node, Reading& reading) {
+  const std::vector<std::string> bodies = body_names(reading.scene);
+  const std::optional<std::string> word = read_word(node, reading.problems);
+  if (!word) return -1;
+  const auto found = std::find(bodies.begin(), bodies.end(), *word);
+  if (bodies.empty()) return -1;  // said already
+  if (found == bodies.end()) {
+    report_unknown(node, "body", *word, bodies, reading.problems);
+    return -1;
+  }
+  return static_cast<int>(found - bodies.begin());
+}
+
+/// `body: rod` or `body: [projectile, plate]`.
+std::vector<int> read_bodies(Block& block, Reading& reading) {
+  std::vector<int> indices;
+  const Node* node = block.require("body", join(body_names(reading.scene)) + ", or a list of them");
+  if (!node) return indices;
+  const bool list = node->kind == Node::Kind::list;
+  if (list && node->items.empty()) block.fail(*node, "an empty list measures nothing");
+  std::vector<Node> resolved;
+  for (const Node& item : list ? node->items : std::vector<Node>{*node}) {
+    const int index = read_body(item, reading);
+    if (index < 0) continue;
+    if (std::find(indices.begin(), indices.end(), index) != indices.end())
+      block.fail(item, quote(item.text) + " is listed twice");
+    indices.push_back(index);
+    resolved.push_back(string_node(item.text));
+  }
+  if (!resolved.empty()) block.record("body", list ? list_node(resolved) : resolved.front());
+  return indices;
+}
+
+/// `region: {z_min: 8 mm, r_max: 3 mm}`.
+void read_region(Block& parent, MeasureSelection& selection, Reading& reading) {
+  const Node* node = parent.find("region");
+  if (!node) return;
+  const Frame frame = reading.scene.frame;
+  Block block{node, node->path, parent.place(), reading.problems};
+  for (const char* name : {"r", "x", "y", "z"}) {
+    const int axis = axis_of(frame, name);
+    if (axis < 0) continue;
+    for (int side = 0; side < 2; ++side) {
+      const std::string key = name + std::string{kSides[static_cast<std::size_t>(side)]};
+      const ParameterInfo bound{key.c_str(), "m", Range::any, kRequired, "bound of the region"};
+      const std::optional<double> value = block.optional_number(bound);
+      if (!value) continue;
+      auto& bounds = selection.region[static_cast<std::size_t>(axis)];
+      double& mine = bounds[static_cast<std::size_t>(side)];
+      if (std::isfinite(mine)) block.fail("r and x are the same axis in this frame; give one");
+      mine = *value;
+      block.record(side_name(frame, axis, side), number_node(*value));
+      if (!(bounds[0] < bounds[1]))
+        block.fail("the region is empty: " + side_name(frame, axis, 1) + " must lie beyond " +
+                   side_name(frame, axis, 0));
+    }
+  }
+  if (selection.region == MeasureSelection{}.region)
+    block.fail("give at least one bound, z_min, ...");
+  parent.record("region", block.finish());
+}
+
+/// Points of a piece two cells across, of the bodies the coarsest: less is not resolved.
+int points_of_two_cells(const MeasureSelection& selection, const Scene& scene) {
+  int least = 0;
+  for (const int b : selection.bodies) {
+    int points = 1;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension(scene.frame)); ++d)
+      points *= 2 * scene.bodies[static_cast<std::size_t>(b)].points.per_direction[d];
+    least = least == 0 ? points : std::min(least, points);
+  }
+  return least;
+}
+
+void read_selection(Block& block, MeasureOptions& measure, Reading& reading) {
+  const MeasureKindInfo& kind = info(measure.kind);
+  MeasureSelection& selection = measure.selection;
+  if (!kind.selects) return;
+  selection.largest_piece =
+      block.choice<bool>("piece", {{"all", false}, {"largest", true}}, kind.whole);
+  const bool counts = measure.kind == MeasureKind::fragments;
+  const int fallback = counts ? points_of_two_cells(selection, reading.scene) : 0;
+  selection.least_points = block.integer("least_points", 0, 1'000'000'000, fallback);
+  read_region(block, selection, reading);
+}
+
+bool takes(MeasureKind kind, std::string_view key) {
+  const std::string keys = " " + std::string{info(kind).keys} + " ";
+  return keys.find(" " + std::string{key} + " ") != std::string::npos;
+}
+
+void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
+  const MeasureKind kind = measure.kind;
+  if (takes(kind, "axis")) measure.axis = read_axis(block, reading);
+  if (takes(kind, "at"))
+    read_at(block.require("at", "{z: position} or {from_lower_end: distance}"), measure, block,
+            reading);
+  if (takes(kind, "field")) {
+    std::vector<std::string> fields;
+    for (const FieldName& field : known_fields()) fields.emplace_back(field.name);
+    measure.field = required_word(block, "field", "field", fields, "the name of a field");
+  }
+  if (takes(kind, "target")) {
+    const Node* node = block.require("target", "the body that is penetrated");
+    if (node) measure.target = read_body(*node, reading);
+    if (measure.target >= 0) block.record("target", string_node(node->text));
+    const std::vector<int>& bodies = measure.selection.bodies;
+    if (std::find(bodies.begin(), bodies.end(), measure.target) != bodies.end())
+      block.fail("a body cannot penetrate itself: target must be another one");
+  }
+  if (takes(kind, "face")) read_face(block, measure, false, reading);
+  if (takes(kind, "z_face")) read_face(block, measure, true, reading);
+  if (takes(kind, "level"))
+    measure.level = block.number(
+        {"level", "m", Range::positive, reading.scene.grid.cell, "depth below the original face"});
+  if (takes(kind, "within")) read_within(measure, block, reading);
+  if (takes(kind, "mass_share")) read_mass_share(block, measure);
+}
+
+void read_when(Block& block, MeasureOptions& measure) {
+  measure.keep = block.choice<Keep>(
+      "keep", {{"now", Keep::now}, {"largest", Keep::largest}, {"smallest", Keep::smallest}},
+      Keep::now);
+  // An extreme needs every row anyway.
+  measure.in_history =
+      block.flag("history", info(measure.kind).in_history || measure.keep != Keep::now);
+}
+
+Node read_measure(const Node& node, Reading& reading) {
+  MeasureOptions measure;
+  measure.name = node.key;
+  Block block{&node, node.path, node, reading.problems};
+  measure.where = block.place().where();
+  std::vector<std::string> names;
+  for (const MeasureKindInfo& kind : measure_kinds()) names.emplace_back(kind.name);
+  const std::string kind = required_word(block, "kind", "kind", names, join(names));
+  if (kind.empty()) {
+    reading.scene.measures.push_back(std::move(measure));  // references may name it
+    return {};
+  }
+  for (const MeasureKindInfo& known : measure_kinds())
+    if (kind == known.name) measure.kind = known.kind;
+  if (info(measure.kind).round && reading.scene.frame == Frame::plane_strain)
+    block.fail(kind +
+               " is not defined in plane_strain, where a hole is a slot; use axisymmetric or 3d");
+  measure.selection.bodies = read_bodies(block, reading);
+  read_keys(block, measure, reading);
+  read_selection(block, measure, reading);
+  read_when(block, measure);
+  Node resolved = block.finish();
+  reading.scene.measures.push_back(std::move(measure));
+  return resolved;
+}
+
+}  // namespace
+
+Node read_measures(const Node* node, Reading& reading) {
+  Node resolved;
+  resolved.kind = Node::Kind::map;
+  if (!node) return resolved;
+  if (node->kind != Node::Kind::map) {
+    reading.problems.add(node->file, node->line, node->path,
+                         "expected a block of named measures, found " + node->kind_name());
+    return resolved;
+  }
+  for (const Node& item : node->items) {
+    check_name(item, reading.problems);
+    add_member(resolved, item.key, read_measure(item, reading));
+  }
+  return resolved;
+}
+
+Node read_references(const Node* node, Reading& reading) {
+  Block block{node, "references", reading.root, reading.problems};
+  for (MeasureOptions& measure : reading.scene.measures) {
+    const Node* item = block.find(measure.name.c_str());
+    if (!item) continue;
+    Block reference{item, item->path, block.place(), reading.problems};
+    const ParameterInfo value{"value", unit_of(measure), Range::any, kRequired,
+                              "what the measure should be"};
+    measure.reference = reference.number(value);
+    measure.reference_source = reference.text("source", "");
+    block.record(measure.name, reference.finish());
+  }
+  return block.finish();
+}
+
+}  // namespace krater::scene
+
+namespace krater {
+
+const char* unit_of(const MeasureOptions& measure) {
+  const char* unit = info(measure.kind).unit;
+  if (*unit != '\0') return unit;
+  for (const scene::FieldName& field : scene::known_fields()) {
+    if (measure.field == field.name) return field.unit;
+  }
+  return "1";
+}
+
+}  // namespace krater

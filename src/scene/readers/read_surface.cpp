@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <stdexcept>
+
+#include "krater/geometry/surfaces/surface.hpp"
+#include "krater/scene/yaml/units.hpp"
+#include "scene/readers/read_shapes.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kMerge{"merge_vertices", "m", Range::non_negative, 0,
+                               "vertices nearer than this become one, 0: none"};
+constexpr ParameterInfo kClose{"close_holes", "m", Range::non_negative, 0,
+                               "holes smaller than this are closed, 0: none"};
+
+RepairOptions read_repair(const Node* node, Block& parent, Reading& reading) {
+  Block block{node, node ? node->path : "", parent.place(), reading.problems};
+  RepairOptions repair;
+  repair.merge_vertices = block.number(kMerge);
+  repair.drop_facets = block.flag("drop_facets", false);
+  repair.orient = block.flag("orient", false);
+  repair.close_holes = block.number(kClose);
+  parent.record("repair", block.finish());
+  return repair;
+}
+
+/// Metres of one unit of the file.
+double read_unit(const Node& node, Reading& reading) {
+  const std::optional<std::string> word = read_word(node, reading.problems);
+  if (!word) return 0;
+  Node one = node;
+  one.text = "1 " + *word;
+  return read_number(one, "m", Range::positive, reading.problems).value_or(0);
+}
+
+}  // namespace
+
+std::shared_ptr<const Solid> read_surface(Block& block, Reading& reading) {
+  const Node* file = block.require("file", "an .stl, .off, .obj or .ply file beside the scene");
+  const Node* unit = block.require("unit",
+                                   "of the file's numbers, for example mm: it is not stated "
+                                   "in the file");
+  const RepairOptions repair = read_repair(block.find("repair"), block, reading);
+  const std::optional<std::string> name = file ? read_word(*file, reading.problems) : std::nullopt;
+  const double metres = unit ? read_unit(*unit, reading) : 0;
+  if (reading.problems.any() || !name) return nullptr;
+  namespace fs = std::filesystem;
+  const fs::path path = fs::path{reading.scene.file}.parent_path() / *name;
+  // Absolute: resolved.yaml lies elsewhere than the scene.
+  std::error_code error;
+  block.record("file", string_node(fs::absolute(path, error).lexically_normal().string()));
+  block.record("unit", string_node(unit->text));
+  Triangles triangles = read_triangles(path.string(), metres);
+  for (const std::string& done : repair_surface(triangles, repair))
+    reading.scene.notes.push_back(block.place().where() + ": " + *name + ": " + done);
+  const SurfaceDefects defects = examine_surface(triangles);
+  if (defects.any())
+    throw std::invalid_argument(*name + " bounds no volume: " + defects.text(metres, unit->text));
+  return make_surface_solid(std::move(triangles));
+}
+
+}  // namespace krater::scene

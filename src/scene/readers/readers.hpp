@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file scene/readers/readers.hpp
+/// The readers of a scene's blocks. Each fills its part of the Scene, reports what is wrong and
+/// returns the block with all defaults for resolved.yaml. Order matters: the frame first, then the
+/// grid, materials, bodies, measures.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "krater/scene/scene.hpp"
+#include "scene/yaml/block.hpp"
+#include "scene/yaml/problems.hpp"
+#include "scene/yaml/tree.hpp"
+
+namespace krater::scene {
+
+/// What every reader needs: the scene being filled, the problems found, the root of the document.
+struct Reading {
+  Scene& scene;
+  Problems& problems;
+  const Node& root;
+};
+
+Node read_grid(const Node* node, Reading& reading);
+Node read_time(const Node* node, Reading& reading);
+Node read_method(const Node* node, Reading& reading);
+Node read_output(const Node* node, Reading& reading);
+Node read_materials(const Node* node, Reading& reading);
+Node read_bodies(const Node* node, Reading& reading);
+/// `rigid:` of a body: `free`, or `{velocity: [..]}` at all times. Returns the resolved key.
+Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
+/// Materials without laws, and rigid bodies without contact; after all blocks.
+void check_rigid(Reading& reading);
+Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies
+Node read_measures(const Node* node, Reading& reading);
+Node read_references(const Node* node, Reading& reading);  ///< after read_measures
+
+/// A solid and its resolved block; a null solid after a problem.
+struct ReadSolid {
+  std::shared_ptr<const Solid> solid;
+  Node resolved;
+};
+ReadSolid read_solid(const Node& shape, Reading& reading);
+
+/// A vector along the grid axes. Two components are (radial or x, axial z); in 3d the first of two
+/// must be zero, for it could mean x as well as r. Three components are (x, y, z); in 2D frames
+/// what the section lacks must be zero.
+std::optional<Triple> read_vector(const Node& node, const char* unit, Reading& reading);
+
+/// A position in 3D space from two (x or r, z) or three components.
+std::optional<Triple> read_position(const Node& node, Reading& reading);
+
+/// A vector field along the grid axes: numbers with units or expressions. `field` is null where it
+/// is zero everywhere.
+struct ReadField {
+  std::shared_ptr<const FieldFunction> field;
+  Node resolved;
+};
+std::optional<ReadField> read_field(const Node& node, const char* unit, Reading& reading);
+
+/// A vector as resolved.yaml shows it: one component per grid axis.
+Node vector_node(Frame frame, const Triple& value);
+
+/// What may be measured or written: name and unit of every field of the points.
+struct FieldName {
+  const char* name;
+  const char* unit;
+};
+const std::vector<FieldName>& known_fields();
+
+/// Checks that need the whole scene (combinations, bodies in the domain); reports and adds notes.
+void check_scene(Reading& reading);
+
+}  // namespace krater::scene

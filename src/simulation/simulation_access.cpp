@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "krater/core/errors.hpp"
+#include "krater/simulation/simulation.hpp"
+
+namespace krater {
+
+const char* text_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::not_finite_input:
+      return "not finite before the step, or outside its block";
+    case FaultKind::not_finite_velocity:
+      return "grid velocity not finite";
+    case FaultKind::inverted:
+      return "turned inside out (det f <= 0)";
+    case FaultKind::not_finite_state:
+      return "stress, pressure, energy or sound speed not finite after the update";
+    case FaultKind::no_convergence:
+      return "constitutive update did not converge";
+    case FaultKind::moved_too_far:
+      return "moved by more than a block in one step";
+    case FaultKind::none:
+      break;
+  }
+  return "unknown";
+}
+
+std::size_t Simulation::point_count() const {
+  std::size_t n = 0;
+  for (const Patch& p : grid_.patches) n += static_cast<std::size_t>(p.count);
+  return n;
+}
+
+double Simulation::bytes_per_point() const {
+  double doubles = 0;
+  for (const Patch& p : grid_.patches)
+    doubles +=
+        static_cast<double>(p.records.size() + p.tile.size() + p.beta.size()) + sizeof(Patch) / 8.0;
+  doubles += static_cast<double>(grid_.node_blocks.size()) * kBlockNodes * kNodeDoubles;
+  return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
+}
+
+void Simulation::set_value(int patch, int point, int slot, double x) {
+  Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+  const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
+  p.records.data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
+                   static_cast<std::size_t>(kLanes * slot + point % kLanes)] = x;
+  p.settled = p.tile_current = p.tile_ahead = false;
+}
+
+void Simulation::book_change() {
+  Audit& audit = step_->audit();
+  const Totals now = totals();
+  audit.external_work += now.kinetic + now.internal - (audit.kinetic + audit.internal);
+  audit.kinetic = now.kinetic;
+  audit.internal = now.internal;
+}
+
+std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {
+  const int slot = bodies_[static_cast<std::size_t>(body)]->slot(field::Id::info);
+  std::vector<std::pair<double, std::pair<int, int>>> order;
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
+    if (grid_.patches[p].body != body) continue;
+    for (int i = 0; i < grid_.patches[p].count; ++i)
+      order.push_back({value(static_cast<int>(p), i, slot), {static_cast<int>(p), i}});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::pair<int, int>> out;
+  out.reserve(order.size());
+  for (const auto& entry : order) out.push_back(entry.second);
+  return out;
+}
+
+Totals Simulation::totals(int body) const {
+  Totals t;
+  const int dim = geometry_.dimension;
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
+    const Patch& patch = grid_.patches[p];
+    if (body >= 0 && patch.body != body) continue;
+    const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+    for (int i = 0; i < patch.count; ++i) {
+      const auto at = [&](int offset, int k) {
+        return value(static_cast<int>(p), i, offset / kLanes + k);
+      };
+      const double m = at(c.mass, 0);
+      t.count += 1;
+      t.mass += m;
+      t.kinetic += point_kinetic(patch, i, c, geometry_);
+      if (c.energy >= 0) t.internal += m * at(c.energy, 0);
+      for (int a = 0; a < dim; ++a)
+        t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
+      // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
+      t.angular_momentum +=
+          m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
+      if (c.affine < 0) continue;
+      // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
+      const auto F = [&](int k, int a) {
+        return c.map >= 0 ? at(c.map, dim * k + a) : (k == a ? 1.0 : 0.0);
+      };
+      for (int a = 0; a < dim; ++a)
+        t.angular_momentum += m * 0.25 * geometry_.h * geometry_.h *
+                              (F(0, a) * at(c.affine, dim + a) - F(1, a) * at(c.affine, a));
+    }
+  }
+  return t;
+}
+
+std::string Simulation::describe_point(int patch, int point) const {
+  const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+  const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
+  std::string position;
+  for (int a = 0; a < geometry_.dimension; ++a)
+    position += fmt::format("{}{} = {:.6e} m", a > 0 ? ", " : "", axis_name(scene_.frame, a),
+                            value(patch, point, body.slot(field::Position::info, a)));
+  return fmt::format("body '{}', point {:.0f} at {}", body.name(),
+                     value(patch, point, body.slot(field::Id::info)), position);
+}
+
+/// The point with the greatest energy per mass.
+std::string Simulation::describe_hottest() const {
+  double greatest = -1;
+  std::pair<int, int> where{0, 0};
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
+    const Patch& patch = grid_.patches[p];
+    const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+    for (int i = 0; i < patch.count; ++i) {
+      const int n = static_cast<int>(p);
+      double energy = point_kinetic(patch, i, c, geometry_) / value(n, i, c.mass / kLanes);
+      if (c.energy >= 0) energy += value(n, i, c.energy / kLanes);
+      if (energy > greatest || std::isnan(energy)) {
+        greatest = energy;
+        where = {n, i};
+      }
+      if (std::isnan(energy)) return describe_point(n, i) + ", which is not finite";
+    }
+  }
+  return fmt::format("most per mass, {:.4g} J/kg, at {}", greatest,
+                     describe_point(where.first, where.second));
+}
+
+std::string Simulation::describe_fault(const StepFault& fault) const {
+  const Patch& patch = grid_.patches[static_cast<std::size_t>(fault.patch)];
+  int lane = 0;
+  while (lane < kLanes - 1 && ((fault.fault.lanes >> lane) & 1U) == 0) ++lane;
+  const int point = std::min(kLanes * fault.fault.group + lane, patch.count - 1);
+  std::string field = "all fields finite";
+  for (const Column& c : bodies_[static_cast<std::size_t>(patch.body)]->layout().columns())
+    for (int k = 0; k < c.components && field == "all fields finite"; ++k) {
+      const double x = value(fault.patch, point, c.offset / kLanes + k);
+      if (!std::isfinite(x))
+        field = fmt::format("field '{}' component {} is {}", c.field->name, k, x);
+    }
+  return fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(fault.patch, point),
+                     text_of(fault.fault.kind), field, time_, steps_);
+}
+
+}  // namespace krater

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The state of a simulation as blobs. All that belongs to a body stands under its name, so the
+// order of the bodies in the scene may change.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "krater/core/errors.hpp"
+#include "krater/simulation/simulation.hpp"
+
+namespace krater {
+
+namespace {
+
+/// A state means nothing on another grid.
+std::vector<double> grid_identity(Frame frame, const GridGeometry& g) {
+  std::vector<double> out{static_cast<double>(frame), g.h};
+  for (std::size_t a = 0; a < 3; ++a) out.insert(out.end(), {g.min[a], 1.0 * g.cells[a]});
+  return out;
+}
+
+CheckpointBlob numbers(std::string name, std::vector<double> x) {
+  const std::vector<std::uint64_t> shape{x.size()};
+  return {std::move(name), shape, std::move(x), {}, {}};
+}
+
+CheckpointBlob integers(std::string name, std::vector<std::int64_t> x) {
+  const std::vector<std::uint64_t> shape{x.size()};
+  return {std::move(name), shape, {}, std::move(x), {}};
+}
+
+std::string blob_name(const Body& body, const char* part) {
+  return "bodies/" + body.name() + "/" + part;
+}
+
+/// What the rows of "points" are: "position 2, velocity 2, ...".
+std::string columns_text(const Body& body) {
+  std::string text;
+  for (const Column& c : body.layout().columns())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", c.field->name, c.components);
+  return text;
+}
+
+const CheckpointBlob& demand(const Checkpoint& checkpoint, const std::string& name) {
+  if (const CheckpointBlob* blob = checkpoint.find(name)) return *blob;
+  throw InputError("checkpoint has no '" + name +
+                   "': it belongs to another scene (a body, law or method differs)");
+}
+
+}  // namespace
+
+void Simulation::save_body(int b, Checkpoint& out) const {
+  const Body& body = *bodies_[static_cast<std::size_t>(b)];
+  std::vector<int> patches;
+  std::vector<std::int64_t> keys;
+  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
+    const Patch& patch = grid_.patches[p];
+    if (patch.body != b) continue;
+    patches.push_back(static_cast<int>(p));
+    keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
+    keys.push_back(patch.count);
+  }
+  out.blobs.push_back(integers(blob_name(body, "patches"), std::move(keys)));
+  out.blobs.push_back({blob_name(body, "columns"), {}, {}, {}, columns_text(body)});
+  std::vector<double> values;
+  std::uint64_t rows = 0;
+  for (const Column& c : body.layout().columns())
+    for (int k = 0; k < c.components; ++k, ++rows)
+      for (const int p : patches)
+        for (int i = 0; i < grid_.patches[static_cast<std::size_t>(p)].count; ++i)
+          values.push_back(value(p, i, c.offset / kLanes + k));
+  const std::uint64_t points = rows > 0 ? values.size() / rows : 0;
+  out.blobs.push_back({blob_name(body, "points"), {rows, points}, std::move(values), {}, {}});
+  if (const RigidBody* rigid = rigid_.find(b))
+    out.blobs.push_back(numbers(blob_name(body, "rigid"), rigid->state()));
+}
+
+Checkpoint Simulation::save() const {
+  Checkpoint out;
+  out.blobs.push_back(numbers(
+      "clock", {time_, dt_, dt_free_, min_step_, limit_.rate, 1.0 * limit_.body, limit_.id}));
+  out.blobs.push_back(integers("counters", {steps_, limit_.kind}));
+  out.blobs.push_back(numbers("grid", grid_identity(scene_.frame, geometry_)));
+  static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
+  const auto* audit = reinterpret_cast<const double*>(&step_->audit());
+  out.blobs.push_back(
+      numbers("audit", std::vector<double>(audit, audit + sizeof(Audit) / sizeof(double))));
+  warnings_.save(out);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) save_body(static_cast<int>(b), out);
+  return out;
+}
+
+void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
+  const Body& body = *bodies_[static_cast<std::size_t>(b)];
+  if (demand(checkpoint, blob_name(body, "columns")).text != columns_text(body))
+    throw InputError("checkpoint: body '" + body.name() +
+                     "' has other columns there: another law, method or version of krater");
+  const std::vector<double>& x = demand(checkpoint, blob_name(body, "points")).doubles;
+  const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
+  const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
+  const std::size_t first = grid_.patches.size();
+  for (std::size_t i = 0; i + 3 < keys.size(); i += 4) {
+    Patch& p = grid_.patches.emplace_back();
+    for (std::size_t a = 0; a < 3; ++a) p.key.i[a] = static_cast<std::int32_t>(keys[i + a]);
+    p.body = b;
+    p.count = static_cast<int>(keys[i + 3]);
+    p.records.reserve(static_cast<std::size_t>(p.groups()) *
+                      static_cast<std::size_t>(columns.stride));
+  }
+  std::size_t at = 0;
+  for (const Column& c : body.layout().columns())
+    for (int k = 0; k < c.components; ++k)
+      for (std::size_t p = first; p < grid_.patches.size(); ++p)
+        for (int i = 0; i < grid_.patches[p].count; ++i)
+          set_value(static_cast<int>(p), i, c.offset / kLanes + k, x.at(at++));
+  for (std::size_t p = first; p < grid_.patches.size(); ++p)
+    if (grid_.patches[p].count > 0) pad(grid_.patches[p], columns.stride, columns.mass);
+  for (RigidBody& rigid : rigid_.all()) {
+    if (rigid.options().body != b) continue;
+    const std::vector<double>& state = demand(checkpoint, blob_name(body, "rigid")).doubles;
+    if (state.size() != RigidBody::kStateSize)
+      throw InputError("checkpoint was written by another version of krater");
+    rigid.set_state(state.data());
+  }
+}
+
+void Simulation::restore(const Checkpoint& checkpoint) {
+  if (demand(checkpoint, "grid").doubles != grid_identity(scene_.frame, geometry_))
+    throw InputError(
+        "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
+        "the scene and the --set options it was written with");
+  const auto& clock = demand(checkpoint, "clock").doubles;
+  time_ = clock.at(0);
+  dt_ = clock.at(1);
+  dt_free_ = clock.at(2);
+  limit_ = {clock.at(4), 0, static_cast<int>(clock.at(5)), clock.at(6)};
+  boundary_.set_time(time_);
+  step_->set_last_step(dt_);
+  steps_ = demand(checkpoint, "counters").integers.at(0);
+  limit_.kind = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
+  const auto& audit = demand(checkpoint, "audit").doubles;
+  if (audit.size() != sizeof(Audit) / sizeof(double))
+    throw InputError("checkpoint was written by another version of krater");
+  std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
+  warnings_.restore(checkpoint);
+  grid_.patches.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) restore_body(static_cast<int>(b), checkpoint);
+  grid_.rebuild(true);
+  step_->relink();
+}
+
+}  // namespace krater

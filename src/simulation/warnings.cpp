@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/simulation/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "krater/simulation/simulation.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr double kEnergyError = 0.01;  // of the energy at the start
+
+void watch_energy(const Simulation& sim, Warnings& warnings) {
+  const Audit& a = sim.audit();
+  const double error = a.error_fraction();
+  const bool wrong = !(std::abs(error) <= kEnergyError);
+  if (!wrong) return warnings.judge("energy_error", false, sim.time(), "");
+  const double transfer = a.transfer_in + a.transfer_out;
+  const bool centring = std::abs(a.time_centring) > std::abs(transfer);
+  warnings.judge("energy_error", true, sim.time(),
+                 fmt::format("energy error {:+.2f} % (energy_error_fraction; {:g} % allowed), most "
+                             "of it {} ({:+.4g} J)",
+                             100 * error, 100 * kEnergyError,
+                             centring ? "time_centring" : "transfer_in + transfer_out",
+                             centring ? a.time_centring : transfer));
+}
+
+}  // namespace
+
+Warning* Warnings::find(const std::string& kind) {
+  const auto at = std::find_if(list_.begin(), list_.end(),
+                               [&kind](const Warning& w) { return w.kind == kind; });
+  return at == list_.end() ? nullptr : &*at;
+}
+
+void Warnings::add(const std::string& kind, double time, const std::string& text) {
+  if (Warning* known = find(kind))
+    known->count += 1;
+  else
+    list_.push_back({kind, text, 1, time});
+}
+
+void Warnings::count(const std::string& kind, double count, double time, const std::string& text) {
+  if (!(count > 0)) return;
+  Warning* known = find(kind);
+  if (known == nullptr) known = &list_.emplace_back(Warning{kind, text, 0, time});
+  known->count = count;
+  known->text = text;
+}
+
+void Warnings::judge(const std::string& kind, bool wrong, double time, const std::string& text) {
+  if (!wrong) {
+    std::erase_if(list_, [&kind](const Warning& w) { return w.kind == kind; });
+    return;
+  }
+  count(kind, 1, time, text);
+  find(kind)->said = true;
+}
+
+std::vector<std::string> Warnings::unsaid() {
+  std::vector<std::string> out;
+  for (Warning& w : list_) {
+    if (w.said) continue;
+    w.said = true;
+    out.push_back(sentence(w));
+  }
+  return out;
+}
+
+Json Warnings::json() const {
+  Json list = Json::array();
+  for (const Warning& w : list_) {
+    Json j;
+    j["kind"] = Json::of(w.kind);
+    j["text"] = Json::of(w.text);
+    j["count"] = Json::of(static_cast<std::int64_t>(w.count));
+    j["first_time"] = Json::of(w.first_time);
+    list.items.push_back(std::move(j));
+  }
+  return list;
+}
+
+void Warnings::save(Checkpoint& checkpoint) const {
+  std::vector<double> numbers;
+  std::string words;
+  for (const Warning& w : list_) {
+    numbers.insert(numbers.end(), {w.count, w.first_time, w.said ? 1.0 : 0.0});
+    words += w.kind + "\n" + w.text + "\n";
+  }
+  if (list_.empty()) return;
+  checkpoint.blobs.push_back({"warnings/numbers", {list_.size(), 3}, std::move(numbers), {}, {}});
+  checkpoint.blobs.push_back({"warnings/words", {}, {}, {}, std::move(words)});
+}
+
+void Warnings::restore(const Checkpoint& checkpoint) {
+  list_.clear();
+  const CheckpointBlob* numbers = checkpoint.find("warnings/numbers");
+  const CheckpointBlob* words = checkpoint.find("warnings/words");
+  if (numbers == nullptr || words == nullptr) return;
+  std::istringstream lines{words->text};
+  Warning w;
+  for (std::size_t i = 0; i + 2 < numbers->doubles.size(); i += 3) {
+    std::getline(lines, w.kind);
+    std::getline(lines, w.text);
+    w.count = numbers->doubles[i];
+    w.first_time = numbers->doubles[i + 1];
+    w.said = numbers->doubles[i + 2] != 0;
+    list_.push_back(w);
+  }
+}
+
+std::string sentence(const Warning& w) {
+  return w.text + fmt::format(" (from {:.3g} s)", w.first_time);
+}
+
+void watch(const Simulation& sim, Warnings& warnings) {
+  const Audit& a = sim.audit();
+  const double now = sim.time();
+  const double left = a.removed_points - a.removed_failed;
+  if (left > 0)
+    warnings.count(
+        "points_left", left, now,
+        fmt::format("{:.0f} of {:.0f} points left the domain (grid.box) and were removed", left,
+                    a.removed_points + static_cast<double>(sim.point_count())));
+  if (a.reflections > 0)
+    warnings.count("points_put_back", a.reflections, now,
+                   fmt::format("points were found beyond a closed side of the domain and put back "
+                               "{:.0f} times",
+                               a.reflections));
+  if (a.sound_speed_floors > 0)
+    warnings.count("sound_speed_floors", a.sound_speed_floors, now,
+                   fmt::format("an equation of state gave no sound speed {:.0f} times (the density "
+                               "is beyond its range); a floor was taken",
+                               a.sound_speed_floors));
+  if (a.hugoniot_poles > 0)
+    warnings.count("hugoniot_poles", a.hugoniot_poles, now,
+                   fmt::format("a compression reached the pole of the linear Hugoniot {:.0f} times",
+                               a.hugoniot_poles));
+  watch_energy(sim, warnings);
+}
+
+}  // namespace krater
