@@ -109,7 +109,7 @@ void BoundarySet::relink(BlockGrid& grid) {
 void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
   const int dimension = geometry_.dimension, edge = block_edge(dimension);
   const int inward = plane.side == 0 ? 1 : -1;
-  for (NodeBlock& block : grid.node_blocks) {
+  for (NodeBlock& block : grid.node_blocks()) {
     const int start = block.key.i[static_cast<unsigned>(plane.axis)] * edge;
     for (int i = plane.line - 1; i <= plane.line + 1; ++i)  // a node of a column in this block
       if (i >= start && i < start + edge) block.at_boundary = true;

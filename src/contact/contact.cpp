@@ -72,7 +72,7 @@ int ContactSet::mirrored(int axis, int index) const {
 void ContactSet::relink(const BlockGrid& grid) {
   groups_.clear();
   if (!options_.active) return;
-  const std::vector<NodeBlock>& blocks = grid.node_blocks;
+  const std::vector<NodeBlock>& blocks = grid.node_blocks();
   for (std::size_t n = 0; n < blocks.size();) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
@@ -116,13 +116,13 @@ ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
 
 void ContactSet::link(const BlockGrid& grid, Group& group) const {
   const int dimension = geometry_.dimension, slots = neighbour_count(dimension);
-  const NodeBlock& home = grid.node_blocks[group.first];
+  const NodeBlock& home = grid.node_blocks()[group.first];
   std::vector<int> around;
   for (int f = 0; f < group.fields; ++f)
     for (int slot = 0; slot < slots; ++slot)
-      around.push_back(
-          grid.find_node_block(shifted(home.key, slot, dimension),
-                               grid.node_blocks[group.first + static_cast<std::size_t>(f)].field));
+      around.push_back(grid.find_node_block(
+          shifted(home.key, slot, dimension),
+          grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field));
   const AxisLinks links = axis_links(home.key);
   group.sources.resize(static_cast<std::size_t>(size_ * group.fields));
   group.inverse.resize(static_cast<std::size_t>(size_));
@@ -146,7 +146,7 @@ void ContactSet::link(const BlockGrid& grid, Group& group) const {
 }
 
 void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {
-  const double* nodes = grid.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  const double* nodes = grid.nodes();  // node memory is contiguous over blocks
   scratch.filling.resize(group.sources.size());
   for (int f = 0; f < group.fields; ++f)
     for (int n = 0; n < size_; ++n) {
@@ -207,14 +207,14 @@ bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
 /// Normal from the points.
 void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& columns,
                         const Group& group, Contact& contact) const {
-  const NodeBlock& home = grid.node_blocks[group.first];
+  const NodeBlock& home = grid.node_blocks()[group.first];
   std::array<double, 3> at{};
   for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
     const auto i = static_cast<unsigned>(a);
     at[i] = geometry_.min[i] + (home.key.i[i] * edge_ + rest % edge_ - 1) * geometry_.h;
   }
   const auto body = [&](int f) {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)].field;
+    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field;
   };
   regress_normal(grid, columns, body(contact.a), body(contact.b), at, contact.normal);
 }
@@ -225,7 +225,7 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
   group.shares.clear();
   bool filled = false;
   const auto block = [&](int f) -> const NodeBlock& {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   for (int n = 0; n < kBlockNodes; ++n) {
     const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
@@ -253,7 +253,7 @@ ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
                                        const RigidBodies& rigid) const {
   ContactWork sum;
   const auto block = [&](int f) -> NodeBlock& {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   const auto touch = [&](const Contact& c) {
     const bool a_is_rigid = rigid.find(block(c.a).field) != nullptr;

@@ -43,15 +43,13 @@ void collect(const BlockGrid& grid, const PointColumns& columns, int body,
       for (key.i[2] = first.i[2]; key.i[2] <= last.i[2]; ++key.i[2]) {
         const int p = grid.find_patch(key, body);
         if (p < 0) continue;
-        const Patch& patch = grid.patches[static_cast<std::size_t>(p)];
-        for (int i = 0; i < patch.count; ++i) {
-          const double* x = patch.records.data() +
-                            static_cast<std::ptrdiff_t>(i / 8) * columns.stride + columns.position +
-                            i % 8;
+        const Patch& patch = grid.patches()[static_cast<std::size_t>(p)];
+        for (int i = 0; i < patch.points.count(); ++i) {
           Sample s{{0, 0, 0, 1}, label};
           bool near = true;
           for (int a = 0; a < dimension; ++a) {
-            s.at[a] = (x[8 * a] - node[static_cast<unsigned>(a)]) * geometry.inv_h;
+            const double x = patch.points.at(columns.position + kLanes * a, i);
+            s.at[a] = (x - node[static_cast<unsigned>(a)]) * geometry.inv_h;
             near = near && std::abs(s.at[a]) < kReach;
           }
           if (near) samples.push_back(s);

@@ -51,8 +51,8 @@ ContactSet::RigidShare& ContactSet::share_of(Group& group, int body) {
 
 ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& group,
                                          const Contact& contact, bool a_is_rigid) const {
-  const NodeBlock& a = grid.node_blocks[group.first + static_cast<std::size_t>(contact.a)];
-  const NodeBlock& b = grid.node_blocks[group.first + static_cast<std::size_t>(contact.b)];
+  const NodeBlock& a = grid.node_blocks()[group.first + static_cast<std::size_t>(contact.a)];
+  const NodeBlock& b = grid.node_blocks()[group.first + static_cast<std::size_t>(contact.b)];
   const NodeBlock &body = a_is_rigid ? a : b, &other = a_is_rigid ? b : a;
   Strike out{other.nodes + kNodeDoubles * contact.node,
              body.field,
@@ -115,8 +115,8 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
   for_each(groups_.size(), [&](std::size_t g) {
     Group& group = groups_[g];
     for (const Contact& c : group.contacts) {
-      const int a = grid.node_blocks[group.first + static_cast<std::size_t>(c.a)].field,
-                b = grid.node_blocks[group.first + static_cast<std::size_t>(c.b)].field;
+      const int a = grid.node_blocks()[group.first + static_cast<std::size_t>(c.a)].field,
+                b = grid.node_blocks()[group.first + static_cast<std::size_t>(c.b)].field;
       const RigidBody* body = rigid.find(a) ? rigid.find(a) : rigid.find(b);
       if (!body || !body->options().free) continue;
       const Strike strike = strike_of(grid, group, c, rigid.find(a) != nullptr);

@@ -98,10 +98,10 @@ double deviatoric_energy(const Simulation& sim) {
     const double G = body.material().shear_modulus;
     if (s < 0 || G <= 0) continue;
     const int phi = body.degrades() ? body.slot(field::Damage::info) : -1;
-    for (std::size_t p = 0; p < sim.grid().patches.size(); ++p) {
-      const Patch& patch = sim.grid().patches[p];
+    for (std::size_t p = 0; p < sim.grid().patches().size(); ++p) {
+      const Patch& patch = sim.grid().patches()[p];
       if (patch.body != static_cast<int>(b)) continue;
-      for (int i = 0; i < patch.count; ++i) {
+      for (int i = 0; i < patch.points.count(); ++i) {
         double square = 0;
         for (int k = 0; k < 6; ++k) {
           const double x = sim.value(static_cast<int>(p), i, s + k);

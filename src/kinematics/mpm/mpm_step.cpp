@@ -214,15 +214,15 @@ void MpmStep::relink() {
   boundary_.relink(grid_);
   contact_.relink(grid_);
   boundary_blocks_.clear();
-  for (std::size_t n = 0; n < grid_.node_blocks.size(); ++n)
-    if (grid_.node_blocks[n].at_boundary) boundary_blocks_.push_back(n);
+  for (std::size_t n = 0; n < grid_.node_blocks().size(); ++n)
+    if (grid_.node_blocks()[n].at_boundary) boundary_blocks_.push_back(n);
   relink_fluids();
   provide_memory();
 }
 
 void MpmStep::provide_memory() {
   int groups = 1, local = 1;
-  for (const Patch& p : grid_.patches) groups = std::max(groups, p.groups());
+  for (const Patch& p : grid_.patches()) groups = std::max(groups, p.points.groups());
   for (const BodyKernelData& b : bodies_) local = std::max(local, b.columns.local_stride);
   const auto count = static_cast<std::size_t>(groups + groups / 4 + 1);
   memory_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
@@ -236,16 +236,16 @@ void MpmStep::provide_memory() {
     m.pressures.reserve(static_cast<std::size_t>(groups) * kLanes);
     if (m.leavers.size() < static_cast<std::size_t>(groups)) m.leavers.resize(count);
   }
-  removed_.resize(grid_.patches.size());
+  removed_.resize(grid_.patches().size());
 }
 
 void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                                 double dt) {
   const SweepSettings s = settings(dt);
-  for_each(grid_.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid_.patches[p];
+  for_each(grid_.patches().size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches()[p];
     patch.result.fault = {};
-    if (patch.tile_current || patch.tile_ahead) return;
+    if (patch.tile.state != Tile::State::stale) return;
     kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
   });
   lap(Phase::scatter);
@@ -256,8 +256,8 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
   const bool fluids = !fluid_patches_.empty();
-  for_each(grid_.node_blocks.size(), [&](std::size_t n) {
-    NodeBlock& block = grid_.node_blocks[n];
+  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
+    NodeBlock& block = grid_.node_blocks()[n];
     if (asleep(block)) return;
     kernels_.sum_tiles(grid_, block);
     if (!block.at_boundary && !fluids) kernels_.momentum(block, s);
@@ -265,22 +265,22 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   if (fluids) {
     if (force_share > 0 || method_.update == Update::usf) collect_pressure(settings(dt));
     if (force_share > 0) add_pressure_force(settings(dt));
-    for_each(grid_.node_blocks.size(), [&](std::size_t n) {
-      if (!grid_.node_blocks[n].at_boundary) kernels_.momentum(grid_.node_blocks[n], s);
+    for_each(grid_.node_blocks().size(), [&](std::size_t n) {
+      if (!grid_.node_blocks()[n].at_boundary) kernels_.momentum(grid_.node_blocks()[n], s);
     });
   }
   lap(Phase::nodes);
   boundary_.fold();
   for_each(boundary_blocks_.size(),
-           [&](std::size_t i) { kernels_.momentum(grid_.node_blocks[boundary_blocks_[i]], s); });
+           [&](std::size_t i) { kernels_.momentum(grid_.node_blocks()[boundary_blocks_[i]], s); });
   double max_change = 0;
-  for (const NodeBlock& block : grid_.node_blocks)
+  for (const NodeBlock& block : grid_.node_blocks())
     max_change = std::max(max_change, block.sums.max_change);
   if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
     halve_until_safe(dt, max_change);
   lap(Phase::boundary);
   GridEnergy energy{rigid_.kinetic(), rigid_.kinetic()};
-  for (const NodeBlock& block : grid_.node_blocks) {
+  for (const NodeBlock& block : grid_.node_blocks()) {
     if (rigid_.any() && rigid_.find(block.field)) continue;
     energy.before += block.sums.kinetic_before;
     energy.after += block.sums.kinetic_after;
@@ -293,7 +293,7 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   while (share * max_change * share * dt > kMaxShare * grid_.geometry().h) share *= 0.5;
   dt *= share;
   audit_.retries += 1;
-  for (NodeBlock& block : grid_.node_blocks) {
+  for (NodeBlock& block : grid_.node_blocks()) {
     block.sums.kinetic_after = 0;
     for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
          node += kNodeDoubles) {
@@ -317,21 +317,23 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
                      part != GatherPart::strain_only;
   if (moves && rigid_.any()) rigid_.finish(grid_, dt);
   if (!fluid_patches_.empty() && strains(part)) correct_dilatation(s);
-  for_each(grid_.patches.size(), [&](std::size_t p) {
+  for_each(grid_.patches().size(), [&](std::size_t p) {
     const SweepScratch w = scratch();
-    Patch& patch = grid_.patches[p];
-    patch.tile_ahead = false;
+    Patch& patch = grid_.patches()[p];
+    if (patch.tile.state == Tile::State::ahead) patch.tile.state = Tile::State::stale;
     if (rigid_.any() && rigid_.find(patch.body)) {
       if (moves) move_rigid(p, w);
       return;
     }
     gather(p, part, s, w);
-    if (!moves || patch.tile_current || patch.result.fault.kind != FaultKind::none) return;
-    const int before = patch.count;
+    if (!moves || patch.tile.state == Tile::State::asleep ||
+        patch.result.fault.kind != FaultKind::none)
+      return;
+    const int before = patch.points.count();
     removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_,
                                   bodies_[static_cast<unsigned>(patch.body)].columns, w.leavers);
     const bool steady = patch.steady;
-    patch.steady = patch.count == before;
+    patch.steady = patch.points.count() == before;
     if (ahead && steady && patch.steady) scatter_ahead(patch, s, w);
   });
   lap(Phase::gather);
@@ -351,21 +353,21 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
 void MpmStep::combine_patches(bool forces_worked) {
   audit_.kinetic = audit_.internal = 0;
   limit_ = {};
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    const PatchResult& r = grid_.patches[p].result;
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
+    const PatchResult& r = grid_.patches()[p].result;
     audit_.kinetic += r.kinetic;
     audit_.internal += r.internal;
     if (forces_worked) audit_.step_external += r.external_work;
     audit_.book_events(r.ledger);
     if (r.max_rate > limit_.rate)
-      limit_ = {r.max_rate, r.limiter, grid_.patches[p].body, 1.0 * r.limiting_point};
+      limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};
   }
 }
 
 void MpmStep::throw_faults() const {
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p)
-    if (grid_.patches[p].result.fault.kind != FaultKind::none)
-      throw StepFault{static_cast<int>(p), grid_.patches[p].result.fault};
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p)
+    if (grid_.patches()[p].result.fault.kind != FaultKind::none)
+      throw StepFault{static_cast<int>(p), grid_.patches()[p].result.fault};
 }
 
 void MpmStep::migrate() {

@@ -12,13 +12,13 @@ std::array<double, 3> MpmStep::filter_velocity() {
   // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
   // (2017), FMPM form.
   const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
-  const std::size_t total = grid_.node_blocks.size() * block_doubles;
+  const std::size_t total = grid_.node_blocks().size() * block_doubles;
   filtered_.reserve(2 * total);
   double* sum = filtered_.data();
   double* increment = sum + total;
   std::array<double, 3> impulse{};
   if (total == 0) return impulse;
-  double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  double* nodes = grid_.nodes();  // node memory is contiguous over blocks
   std::copy(nodes, nodes + total, sum);
   for (int order = 1; order < method_.xpic_order; ++order) {
     std::copy(nodes, nodes + total, increment);

@@ -25,7 +25,7 @@ struct GatherViews {
 KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
                                            const SweepScratch& w) {
   const auto read = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
-  const auto write = [&](int offset) { return WriteView{patch.records.data() + offset, c.stride}; };
+  const auto write = [&](int offset) { return WriteView{patch.points.data() + offset, c.stride}; };
   return {write(c.position),
           write(c.velocity),
           write(c.affine),
@@ -57,9 +57,9 @@ void load_halo(const double* nodes, const Patch& patch, double* halo) {
     for (int j = 0; j < T; ++j)
       for (int high = 0; high < 2; ++high) {
         const int corner = Dim == 3 ? (i / E) + 2 * (j / E) + 4 * high : (j / E) + 2 * high;
-        const double* block =
-            nodes + static_cast<std::size_t>(patch.node_blocks[static_cast<unsigned>(corner)]) *
-                        kBlockNodes * kNodeDoubles;
+        const double* block = nodes + static_cast<std::size_t>(
+                                          patch.links.node_blocks[static_cast<unsigned>(corner)]) *
+                                          kBlockNodes * kNodeDoubles;
         const double* from = block + kNodeDoubles * (((i % E) * E + j % E) * E);
         double* to = halo + kNodeDoubles * ((i * T + j) * T + E * high);
         for (int k = 0; k < (high != 0 ? T - E : E); ++k) store(to + 8 * k, load(from + 8 * k));
@@ -282,7 +282,7 @@ void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s,
                   int last, ReadView rate, bool indicator, GatherSums& sums) {
   const GridGeometry& grid = *s.geometry;
   for (int g = first; g < last; ++g) {
-    const Mask valid = first_lanes(patch.count - kLanes * g);
+    const Mask valid = first_lanes(patch.points.count() - kLanes * g);
     const Pack expansion = abs(rate(g)), c = view.sound_speed(g), signal = view.signal(g);
     if (indicator) view.indicator.set(g, select(c > Pack(0.0), expansion * grid.h / c, Pack(0.0)));
     Pack speed = 0.0;

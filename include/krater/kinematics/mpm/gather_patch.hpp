@@ -14,8 +14,8 @@ inline constexpr int kStageGroups = 8;  ///< lane groups a stage works on at onc
 /// Ask for the whole record of a lane group: here the points come from memory, and the stages will
 /// want what this pass does not. The processor itself looks ahead only within a page.
 KRATER_FORCE_INLINE void fetch_record(const Patch& patch, int stride, int g) {
-  if (g >= patch.groups()) return;
-  const double* record = patch.records.data() + g * stride;
+  if (g >= patch.points.groups()) return;
+  const double* record = patch.points.data() + g * stride;
   for (int k = 0; k < stride; k += kLanes) __builtin_prefetch(record + k, 1);
 }
 inline constexpr int kFetchAhead = 3;  ///< lane groups
@@ -32,7 +32,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
   LaneWeights<D> lw;
   PointSums<D> n;
   for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     fetch_record(patch, stride, g + kFetchAhead);
     compute_weights<D, Shape, false>(grid, origin, view.grid_position, reading(view.half_width), g,
                                      lw);
@@ -44,7 +44,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     Pack check = n.V[0];
     for (int a = 0; a < D; ++a)
       for (int i = 0; i < D; ++i) check += n.G[a][i];
-    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
+    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.points.count() - kLanes * g));
     if (bad != 0 && patch.result.fault.kind == FaultKind::none)
       patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
 
@@ -64,7 +64,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
       unsigned gone = 0;
       if constexpr (!Configuration::fixed)
         gone = bits(left_block<D>(s, origin, view.grid_position, g) &
-                    first_lanes(patch.count - kLanes * g));
+                    first_lanes(patch.points.count() - kLanes * g));
       w.leavers[g] = static_cast<unsigned char>(gone);
     }
   }
@@ -75,11 +75,11 @@ KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSetti
                                             const SweepScratch& w, const GatherViews& view,
                                             const CellSums& cells) {
   if (!s.average_cells) {
-    for (int g = 0; g < patch.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
+    for (int g = 0; g < patch.points.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
     return;
   }
   cells.divide();
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     const double* cell = w.pressures + kLanes * g;
     const Pack beta = look_up(patch.beta.data(), cell), mean = look_up(cells.value, cell);
     view.extra_dilatation.set(g, s.dt * (beta * (mean - view.extra_dilatation(g))));
@@ -92,7 +92,7 @@ KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& 
                                         const SweepSettings& s, const SweepScratch& w,
                                         const GatherViews& view) {
   const ReadView correction{w.local + c.local_correction, c.local_stride};
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     const Pack change = fma(Pack(s.dt), correction(g), view.extra_dilatation(g));
     const Pack j = det_minus_one(load_mat3(reading(view.step_gradient), g)) + 1.0;
     view.extra_dilatation.set(g, change / fma(Pack(0.5), change, j));
@@ -105,16 +105,16 @@ void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s
                 const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
   const PointColumns& c = body.columns;
   const ReadView rate{w.local + c.local_rate, c.local_stride};
-  for (int first = 0; first < patch.groups(); first += kStageGroups) {
+  for (int first = 0; first < patch.points.groups(); first += kStageGroups) {
     const int groups =
-        patch.groups() - first < kStageGroups ? patch.groups() - first : kStageGroups;
-    const BatchData batch{patch.records.data() + first * c.stride,
+        patch.points.groups() - first < kStageGroups ? patch.points.groups() - first : kStageGroups;
+    const BatchData batch{patch.points.data() + first * c.stride,
                           c.stride,
                           w.local + first * c.local_stride,
                           c.local_stride,
                           w.zeros,
                           groups,
-                          patch.count - kLanes * first,
+                          patch.points.count() - kLanes * first,
                           first,
                           s.dt,
                           s.geometry->h,
@@ -131,7 +131,7 @@ void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& bod
                   const SweepSettings& s, const SweepScratch& w) {
   constexpr int D = Frame::dim;
   using T = PartTraits<Part>;
-  load_halo<D>(grid.node_blocks.front().nodes, patch, w.halo);
+  load_halo<D>(grid.nodes(), patch, w.halo);
   const GatherViews view = make_views(patch, body.columns, w);
   const CellSums cells{w.cells, w.cells + kBlockNodes};
   if (s.average_cells) cells.clear();

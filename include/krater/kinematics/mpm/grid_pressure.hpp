@@ -227,7 +227,7 @@ void collect_pressure(const PressureSweep<Frame, Shape>& sweep) {
   sweep.clear_tile();
   LaneWeights<D> lw;
   Channels<D> channels;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
     clear(channels.A);
@@ -248,7 +248,7 @@ void force_of_pressure(const PressureSweep<Frame, Shape>& sweep) {
   LaneWeights<D> lw;
   Channels<D> channels;
   PointSums<D> sums;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(halo, lw, sums);
     const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
@@ -290,7 +290,7 @@ void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   LaneWeights<D> lw;
   Channels<D> channels;
   PointSums<D> sums;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(halo, lw, sums);
     Pack trace = sums.G[0][0];
@@ -328,7 +328,7 @@ void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   const WriteView out{sweep.w.local + sweep.c.local_correction, sweep.c.local_stride};
   LaneWeights<D> lw;
   PointSums<D> sums;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(sweep.w.pressure_halo, lw, sums);
     out.set(g, sums.V[kNodeDilatation]);

@@ -35,8 +35,8 @@ template <int Dim>
 void sum_block(const BlockGrid& grid, NodeBlock& block) {
   for (int i = 0; i < kBlockNodes * kNodeDoubles; i += 8) store(block.nodes + i, Pack(0.0));
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
-    const TileRef& ref = grid.tile_refs[static_cast<unsigned>(t)];
-    add_tile<Dim>(grid.patches[static_cast<unsigned>(ref.patch)].tile.data(), ref.corner,
+    const TileRef& ref = grid.tile_refs()[static_cast<unsigned>(t)];
+    add_tile<Dim>(grid.patches()[static_cast<unsigned>(ref.patch)].tile.data(), ref.corner,
                   block.nodes);
   }
 }

@@ -51,7 +51,7 @@ class TransferKernels final : public Kernels {
       case PressurePart::force:
         return force_of_pressure(sweep);
       case PressurePart::dilatation:
-        load_halo<Frame::dim>(grid.node_blocks.front().nodes, patch, w.halo);
+        load_halo<Frame::dim>(grid.nodes(), patch, w.halo);
         return sum_dilatation(sweep);
     }
   }
