@@ -204,14 +204,15 @@ bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
   return length > 0;
 }
 
-/// Normal from the points.
+/// Normal from the points around the joint.
 void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& columns,
                         const Group& group, Contact& contact) const {
   const NodeBlock& home = grid.node_blocks()[group.first];
   std::array<double, 3> at{};
-  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
+  for (int a = geometry_.dimension - 1, rest = contact.joint; a >= 0; --a, rest /= padded_) {
     const auto i = static_cast<unsigned>(a);
-    at[i] = geometry_.min[i] + (home.key.i[i] * edge_ + rest % edge_ - 1) * geometry_.h;
+    const int index = mirrored(a, home.key.i[i] * edge_ + rest % padded_ - kHalo);
+    at[i] = geometry_.min[i] + (index - 1) * geometry_.h;
   }
   const auto body = [&](int f) {
     return grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field;
@@ -239,7 +240,7 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
-        Contact contact{n, a, b, {}, false};
+        Contact contact{n, a, b, at, {}, false};
         if (!find_contact(scratch, at, contact)) continue;
         if (contact.even && options_.normal == ContactNormal::logistic_regression)
           refine(grid, columns, group, contact);

@@ -86,7 +86,7 @@ double ContactSet::gap(const double* phi_a, const double* phi_b) const {
 bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) const {
   const double* phi_a = scratch.filling.data() + contact.a * size_;
   const double* phi_b = scratch.filling.data() + contact.b * size_;
-  const int joint = joint_near(phi_a, phi_b, at);
+  const int joint = contact.joint = joint_near(phi_a, phi_b, at);
   if (gap(phi_a + joint, phi_b + joint) > kTouch) return false;
   const std::array<double, 3> grad_a = gradient(phi_a + joint), grad_b = gradient(phi_b + joint);
   // The body with the steeper filling is the wider one there: at the edge of a punch its normal is

@@ -74,8 +74,9 @@ class ContactSet {
 
  private:
   struct Contact {
-    int node;  ///< in the block
-    int a, b;  ///< fields of the group
+    int node;   ///< in the block
+    int a, b;   ///< fields of the group
+    int joint;  ///< padded node where the bodies meet
     std::array<double, 3> normal;
     bool even;  ///< both bodies are about as wide at the joint
   };
