@@ -77,6 +77,17 @@ struct Assembler {
     add_part(Part::carried, {}, "carried stress");
   }
 
+  /// The strength's stages stand from `first` on; they have declared what the deviator needs.
+  void add_cohesion(std::ptrdiff_t first) {
+    if (plan.eos.law < 0) return;
+    const StagesAround around =
+        factory.cohesion(plan.eos.law, plan.eos.values, plan.constants, layout);
+    if (around.before == nullptr) return;
+    stages.insert(stages.begin() + first,
+                  {"effective deviator", std::unique_ptr<const Stage>{around.before}});
+    add("cohesion", around.after);
+  }
+
   void add_eos() {
     if (plan.eos.law < 0) return;
     add("eos: " + info(plan.eos).name + (carries() ? ", carried" : "") + (parts() ? ", spall" : ""),
@@ -114,11 +125,13 @@ std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialP
     layout.state<field::DeformationGradient>(0.0, "kinematics");
   all.add("kinematics", factory.kinematics(layout));
   all.add_law(plan.viscosity);
+  const auto first = std::ssize(all.stages);
   if (split && plan.strength.law >= 0) {
     all.add_split_deviator();
   } else {
     all.add_law(plan.strength);
   }
+  if (plan.strength.law >= 0) all.add_cohesion(first);
   all.add_eos();
   all.add_heating();
   all.add("signal speed", factory.signal_speed(plan.q_lin, plan.q_quad, layout));

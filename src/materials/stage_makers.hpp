@@ -36,6 +36,8 @@ Stage* make_strength(int law, const double* values, const MaterialConstants& con
 Stage* make_part(const PartRequest& request, Layout& layout);
 // stages_eos_hot.cpp: the pressure, and the temperature that follows from it.
 Stage* make_eos(const EosRequest& request, Layout& layout);
+StagesAround make_cohesion(int eos, const double* values, const MaterialConstants& constants,
+                           Layout& layout);
 Stage* make_energy_heating(const EnergyHeatingRequest& request, Layout& layout);
 
 }  // namespace krater::inline KRATER_ISA

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pressure, and temperature from the energy (compiled once per instruction-set level).
+#include "krater/materials/stages/cohesion_stage.hpp"
 #include "krater/materials/stages/energy_heating_stage.hpp"
 #include "krater/materials/stages/eos_stage.hpp"
 #include "materials/stage_makers.hpp"
@@ -38,6 +39,20 @@ Stage* make_eos(const EosRequest& r, Layout& layout) {
     }
     return nullptr;
   });
+}
+
+StagesAround make_cohesion(int eos, const double* values, const MaterialConstants& constants,
+                           Layout& layout) {
+  StagesAround around;
+  around.after = stage_of(AllLaws{}, eos, [&]<class Law>() -> Stage* {
+    if constexpr (Parting<Law>) {
+      const double rho0 = make_law<Law>(values, constants).rho0;
+      around.before = new EffectiveCohesionStage{rho0, layout};
+      return new CarriedCohesionStage{rho0, layout};
+    }
+    return nullptr;
+  });
+  return around;
 }
 
 Stage* make_energy_heating(const EnergyHeatingRequest& r, Layout& layout) {

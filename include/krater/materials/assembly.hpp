@@ -8,6 +8,8 @@
 ///   start -> trial -> return -> growth of damage -> carried stress             coupling: effective
 ///   start -> trial -> flow stress -> growth -> return with damage -> carried   coupling: rate
 /// so that neither rates nor damage laws multiply the compiled yield laws.
+/// With an equation of state whose solid parts, two stages stand about those of the strength
+/// (materials/stages/cohesion_stage.hpp).
 #include <limits>
 #include <memory>
 #include <string>

@@ -84,6 +84,12 @@ struct EnergyHeatingRequest {
   bool degrades = false;  ///< as of PartRequest
 };
 
+/// The stages that stand about those of the strength.
+struct StagesAround {
+  Stage* before = nullptr;
+  Stage* after = nullptr;
+};
+
 /// Makes stages of one instruction-set level (materials/stages_hot.cpp is compiled once per level).
 struct StageFactory {
   /// `law`: index in catalogue() (materials/catalogue.hpp), of a family but eos and damage;
@@ -92,6 +98,11 @@ struct StageFactory {
   Stage* (*part)(const PartRequest& request, Layout& layout);
   Stage* (*eos)(const EosRequest& request, Layout& layout);
   Stage* (*energy_heating)(const EnergyHeatingRequest& request, Layout& layout);
+  /// What the deviator loses where the solid of an equation of state has parted
+  /// (materials/stages/cohesion_stage.hpp): the stages before and after the strength, both null where the
+  /// law has no such end. Made when the strength's own stages are.
+  StagesAround (*cohesion)(int eos, const double* values, const MaterialConstants& constants,
+                           Layout& layout);
   Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
   Stage* (*signal_speed)(double q_lin, double q_quad,
                          Layout& layout);  ///< always last: c_L, Qv -> signal speed

@@ -7,7 +7,8 @@
 /// the stress update sees tr L + beta (tr_c - tr L), the force sees (1 - beta)(p + q) + beta P_c.
 /// One beta for both keeps the internal force and the dilatation adjoint, so the averages do no
 /// work. beta fades from 1 to 0 where the last update saw |tr D| h / c between 0.001 and 0.005: in
-/// shocks the averages would smear.
+/// shocks the averages would smear. It is 0 in a cell that holds a failed point, which would pull
+/// with the tension of its sound neighbours.
 #include "krater/kinematics/mpm/weights.hpp"
 
 namespace krater::inline KRATER_ISA {

@@ -32,7 +32,8 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
                 const SweepScratch& w) {
   const auto column = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
   const ReadView x = column(c.grid_position), p = column(c.pressure), q = column(c.viscous),
-                 m = column(c.mass), rho = column(c.density), indicator = column(c.indicator);
+                 m = column(c.mass), rho = column(c.density), indicator = column(c.indicator),
+                 failed = column(c.failed);
   const PatchOrigin origin = origin_of<Dim>(patch);
   const CellSums sums{w.cells, w.cells + kBlockNodes};
   double* beta = patch.beta.data();
@@ -50,7 +51,7 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
     double* cells = w.pressures + kLanes * g;
     store(cells, cell.index);
     sums.add(cells, m(g) / rho(g), p(g) + q(g));
-    note_shock(cells, indicator(g), beta);
+    note_shock(cells, select(failed(g) > Pack(0.5), Pack(kShockOn), indicator(g)), beta);
   }
   if (s.average_cells) {
     sums.divide();
