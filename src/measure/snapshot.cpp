@@ -98,18 +98,16 @@ double deviatoric_energy(const Simulation& sim) {
     const double G = body.material().shear_modulus;
     if (s < 0 || G <= 0) continue;
     const int phi = body.degrades() ? body.slot(field::Damage::info) : -1;
-    for (std::size_t p = 0; p < sim.grid().patches().size(); ++p) {
-      const Patch& patch = sim.grid().patches()[p];
-      if (patch.body != static_cast<int>(b)) continue;
-      for (int i = 0; i < patch.points.count(); ++i) {
+    for (int p = 0; p < sim.set_count(); ++p) {
+      if (sim.set(p).body != static_cast<int>(b)) continue;
+      for (int i = 0; i < sim.set(p).count(); ++i) {
         double square = 0;
         for (int k = 0; k < 6; ++k) {
-          const double x = sim.value(static_cast<int>(p), i, s + k);
+          const double x = sim.value(p, i, s + k);
           square += (k < 3 ? 1 : 2) * x * x;
         }
-        sum += sim.value(static_cast<int>(p), i, m) * square /
-               (4 * G * sim.value(static_cast<int>(p), i, rho) *
-                (phi < 0 ? 1 : 1 - sim.value(static_cast<int>(p), i, phi)));
+        sum += sim.value(p, i, m) * square /
+               (4 * G * sim.value(p, i, rho) * (phi < 0 ? 1 : 1 - sim.value(p, i, phi)));
       }
     }
   }

@@ -31,7 +31,7 @@ const char* text_of(FaultKind kind) {
 
 std::size_t Simulation::point_count() const {
   std::size_t n = 0;
-  for (const Patch& p : grid_.patches()) n += static_cast<std::size_t>(p.points.count());
+  for (int s = 0; s < set_count(); ++s) n += static_cast<std::size_t>(set(s).count());
   return n;
 }
 
@@ -44,8 +44,8 @@ double Simulation::bytes_per_point() const {
   return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
 }
 
-void Simulation::set_value(int patch, int point, int slot, double x) {
-  Patch& p = grid_.patches()[static_cast<std::size_t>(patch)];
+void Simulation::set_value(int s, int point, int slot, double x) {
+  Patch& p = grid_.patches()[static_cast<std::size_t>(s)];
   p.points.at(kLanes * slot, point) = x;
   p.touch();
 }
@@ -61,10 +61,9 @@ void Simulation::book_change() {
 std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {
   const int slot = bodies_[static_cast<std::size_t>(body)]->slot(field::Id::info);
   std::vector<std::pair<double, std::pair<int, int>>> order;
-  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
-    if (grid_.patches()[p].body != body) continue;
-    for (int i = 0; i < grid_.patches()[p].points.count(); ++i)
-      order.push_back({value(static_cast<int>(p), i, slot), {static_cast<int>(p), i}});
+  for (int s = 0; s < set_count(); ++s) {
+    if (set(s).body != body) continue;
+    for (int i = 0; i < set(s).count(); ++i) order.push_back({value(s, i, slot), {s, i}});
   }
   std::sort(order.begin(), order.end());
   std::vector<std::pair<int, int>> out;

@@ -60,4 +60,11 @@ class PointStore {
   int count_ = 0, stride_ = 0;
 };
 
+/// Some of the points of a body: what output, measures and checkpoints walk.
+struct PointSet {
+  int body;
+  const PointStore* points;
+  int count() const { return points->count(); }
+};
+
 }  // namespace krater

@@ -72,13 +72,17 @@ class Simulation {
   const GridGeometry& geometry() const { return geometry_; }
   Totals totals(int body = -1) const;  ///< of one body, or of all
 
-  /// Call visit(patch, index in the patch) for every point of a body in order of its id.
+  /// All points, in sets of one body; the order is part of the state.
+  int set_count() const { return static_cast<int>(grid_.patches().size()); }
+  PointSet set(int s) const {
+    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+    return {patch.body, &patch.points};
+  }
+  /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
   /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
-  double value(int patch, int point, int slot) const {
-    return grid_.patches()[static_cast<std::size_t>(patch)].points.at(kLanes * slot, point);
-  }
-  void set_value(int patch, int point, int slot, double x);
+  double value(int s, int point, int slot) const { return set(s).points->at(kLanes * slot, point); }
+  void set_value(int set, int point, int slot, double x);
   /// After set_value: what it changed of the energy is work from outside.
   void book_change();
 

@@ -24,8 +24,7 @@ bool is_folded_ghost(const GridGeometry& g, const BoundaryConditions& conditions
     const auto axis = static_cast<std::size_t>(a);
     const int index = key.i[axis] * edge + rest % edge;
     if (index > 0 && index <= g.cells[axis] + 1) continue;
-    const BoundaryKind kind = conditions[axis][index > 0 ? 1 : 0].kind;
-    if (kind == BoundaryKind::symmetry || kind == BoundaryKind::sticky) return true;
+    if (conditions[axis][index > 0 ? 1 : 0].folds()) return true;
   }
   return false;
 }

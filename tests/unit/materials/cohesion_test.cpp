@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The deviator ends where the solid of an equation of state has parted (materials/stages/cohesion_stage.hpp).
+// The deviator ends where the solid of an equation of state has parted
+// (materials/stages/cohesion_stage.hpp).
 #include <doctest/doctest.h>
 
 #include <cmath>
