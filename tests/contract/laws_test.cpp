@@ -303,7 +303,7 @@ TEST_SUITE("contract") {
         });
         REQUIRE(same(signal_speed(4000.0, G, 1.0 / rho.v[i], 1e6 * (i - 4), 0.3, 2.0, 1e-4),
                      get(signal_speed(Pack(4000.0), Pack(G), 1.0 / rho.pack(), Pack(1e6 * (i - 4)),
-                                      0.3, 2.0, 1e-4),
+                                      0.3, 2.0, Pack(1e-4)),
                          i)));
       }
     }

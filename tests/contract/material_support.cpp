@@ -315,10 +315,13 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
   layout_.check();
 
   const int state_size = groups_ * layout_.stride(), local_size = groups_ * layout_.local_stride();
-  storage_.assign(static_cast<std::size_t>(state_size + local_size + kZeros + 3 * kLanes), 0.0);
+  storage_.assign(
+      static_cast<std::size_t>(state_size + local_size + kZeros + (groups_ + 3) * kLanes), 0.0);
   zeros_ = aligned(storage_.data());
   state_ = zeros_ + kZeros;
   local_ = state_ + state_size;
+  lengths_ = local_ + local_size;  // one per point: a grid gives one to all
+  std::fill_n(lengths_, groups_ * kLanes, 1e-4);
   for (int i = 0; i < points_; ++i) {
     for (const Column& c : layout_.columns()) {
       for (int k = 0; k < c.components; ++k) state(c.field->name, i, k) = c.initial;
@@ -379,7 +382,8 @@ BatchData Body::batch(int index, double dt) {
           .count = count,
           .first_group = first,
           .dt = dt,
-          .length = 1e-4,
+          .length = lengths_ + first * kLanes,
+          .length_stride = kLanes,
           .ledger = &ledger,
           .fault = &fault};
 }

@@ -89,7 +89,7 @@ class Body {
   std::vector<NamedStage> stages_;
   int points_, batch_size_, groups_per_batch_, groups_;
   std::vector<double> storage_;
-  double *state_, *local_, *zeros_;
+  double *state_, *local_, *zeros_, *lengths_;
 };
 
 /// Step gradients of a violent, smooth, reproducible motion.

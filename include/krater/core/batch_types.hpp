@@ -43,7 +43,10 @@ struct BatchData {
   int count;        ///< number of points; lanes past it in the last group are padding with mass 0
   int first_group;  ///< index of the first group in the patch, for faults
   double dt;        ///< [s]
-  double length;    ///< cell size h [m], for viscosity
+  /// Width over which a point's motion is resolved [m], for viscosity and time step: 8 per group,
+  /// `length_stride` apart; 0 where all points have the same, as on a grid.
+  const double* length;
+  int length_stride;
   Ledger* ledger;
   Fault* fault;
 };

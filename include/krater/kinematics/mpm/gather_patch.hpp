@@ -105,6 +105,8 @@ void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s
                 const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
   const PointColumns& c = body.columns;
   const ReadView rate{w.local + c.local_rate, c.local_stride};
+  alignas(64) double length[kLanes];
+  store(length, Pack(s.geometry->h));
   for (int first = 0; first < patch.points.groups(); first += kStageGroups) {
     const int groups =
         patch.points.groups() - first < kStageGroups ? patch.points.groups() - first : kStageGroups;
@@ -117,7 +119,8 @@ void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s
                           patch.points.count() - kLanes * first,
                           first,
                           s.dt,
-                          s.geometry->h,
+                          length,
+                          0,
                           &patch.result.ledger,
                           &patch.result.fault};
     for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
