@@ -61,13 +61,19 @@ double BoundarySet::last_storage(int axis, int side) const {
   const auto a = static_cast<unsigned>(axis);
   if (conditions_[a][static_cast<unsigned>(side)].travels(axis))
     return geometry_.storage(position(axis, side, step_), axis);
-  return side == 0 ? 1.0 : geometry_.cells[a] + 1.0;
+  return side == 0 ? 1.0 + clearance(axis) : geometry_.cells[a] + 1.0;
+}
+
+double BoundarySet::clearance(int axis) const {
+  return conditions_[static_cast<unsigned>(axis)][0].kind == BoundaryKind::symmetry ? kClearance
+                                                                                    : 0;
 }
 
 bool BoundarySet::beyond(int axis, int side, double x) const {
   const auto a = static_cast<unsigned>(axis);
   if (side != 0) return geometry_.storage(x, axis) > last_storage(axis, 1);
-  return conditions_[a][0].travels(axis) ? x < position(axis, 0, step_) : x < geometry_.min[a];
+  if (conditions_[a][0].travels(axis)) return x < position(axis, 0, step_);
+  return x < geometry_.min[a] + clearance(axis) * geometry_.h;
 }
 
 void BoundarySet::place(Plane& plane) const {

@@ -207,7 +207,6 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   lattice.origin = scene.grid.min;
   lattice.stagger = scene.method.stagger;
   lattice.mirror = mirror_planes(scene, lattice);
-  lattice.mirror = mirror_planes(scene, lattice);
   lattice.jitter = options_->points.jitter;
   lattice.seed = options_->points.seed;
   std::vector<SeedPoint> out;

@@ -70,6 +70,10 @@ class BoundarySet {
   double step() const { return step_; }
   /// Where the plane is at the end of the step: as a storage coordinate, and whether x is beyond.
   double last_storage(int axis, int side) const;
+  /// Distance that a point keeps from a lower plane of symmetry [cells]: on the axis itself
+  /// sigma_tt/r and v_r/r would not be numbers.
+  static constexpr double kClearance = 1e-9;
+  double clearance(int axis) const;
   bool beyond(int axis, int side, double x) const;
   /// Fixed reference: nodes hold [m, sum S m x, ..]: how far the material of each wall column is
   /// from the wall.

@@ -99,8 +99,8 @@ struct StageFactory {
   Stage* (*eos)(const EosRequest& request, Layout& layout);
   Stage* (*energy_heating)(const EnergyHeatingRequest& request, Layout& layout);
   /// What the deviator loses where the solid of an equation of state has parted
-  /// (materials/stages/cohesion_stage.hpp): the stages before and after the strength, both null
-  /// where the law has no such end. Made when the strength's own stages are.
+  /// (materials/stages/cohesion_stage.hpp): the stages before and after those of the strength,
+  /// both null where the law has no such end. Made when the strength's own stages are.
   StagesAround (*cohesion)(int eos, const double* values, const MaterialConstants& constants,
                            Layout& layout);
   Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D

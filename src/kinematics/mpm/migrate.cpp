@@ -94,6 +94,13 @@ bool keep_inside(Patch& patch, const GridGeometry& geometry, const BoundarySet& 
     const bool low = boundary.beyond(a, 0, x), high = boundary.beyond(a, 1, x);
     if (!low && !high) continue;
     const int side = low ? 0 : 1;
+    if (low && boundary.clearance(a) > 0) {
+      double& near = patch.points.at(c.position + kLanes * a, i);
+      const double least = boundary.position(a, 0) + BoundarySet::kClearance * geometry.h;
+      if (x < boundary.position(a, 0)) reflect(patch, c, geometry, boundary, a, side, i, removed);
+      near = std::max(least, near);
+      continue;
+    }
     if (boundary.is_open(a, side)) return false;
     reflect(patch, c, geometry, boundary, a, side, i, removed);
   }
