@@ -12,7 +12,7 @@ namespace {
 template <class Law, Tension tension>
 Stage* make_tensile(const EosRequest& r, Layout& layout) {
   const Law law = make_law<Law>(r.values, r.constants);
-  if (has_voids(layout)) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
+  if (r.dilates) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
   return new EosStage<Law, tension, false>{law, r.spall_strength, layout};
 }
 

@@ -125,7 +125,8 @@ bool Body::pressure_on_grid(const Scene& scene) const {
     return scene.method.grid_pressure == GridPressure::all;
   if (scene.contact.active) return false;  // a joint moves too much of a light node (src/README.md)
   const double bulk = material_->density * c->initial * c->initial;
-  return !material_->strength || material_->shear_modulus < kSoft * bulk;
+  const bool solid = material_->strength || material_->model;
+  return !solid || material_->shear_modulus < kSoft * bulk;
 }
 
 /// What the scatter and the motion as a whole need; no stress, no law.

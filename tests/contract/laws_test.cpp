@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "every_law.hpp"
 #include "krater/core/lane_math.hpp"
 #include "krater/materials/law_list.hpp"
 #include "krater/materials/returns/rates.hpp"
@@ -14,29 +15,11 @@
 #include "krater/materials/stages/kinematics_stage.hpp"
 #include "krater/materials/stages/signal_speed_stage.hpp"
 #include "krater/materials/stages/strength_stage.hpp"
-#include "material_support.hpp"
 
 namespace {
 
 using namespace krater;
 using namespace krater::test;
-
-template <class Law>
-Law typical() {
-  const int index = find_law(kFamilyNames[static_cast<int>(Law::family)], Law::name);
-  const auto values = typical_parameters(catalogue().at(static_cast<std::size_t>(index)));
-  return make_law<Law>(values.data(), kCopper);
-}
-
-/// Calls `check(law)` for every law of a family.
-template <class Check, class... Laws>
-void for_each_law(LawList<Laws...>, Family family, Check check) {
-  const auto one = [&]<class Law>(const Law* law) {
-    if (Law::family == family) check(*law);
-  };
-  const auto all = [&](const Laws&... laws) { (one(&laws), ...); };
-  all(typical<Laws>()...);
-}
 
 double pressure(const auto& eos, double rho, double e) {
   return pressure_at(eos, rho, 1.0 / rho, e);
@@ -66,15 +49,6 @@ void check_slopes(const auto& curve) {
   }
 }
 
-/// Lane i of a pack made from eight doubles.
-struct Lanes {
-  alignas(64) double v[8];
-  Pack pack() const { return load(v); }
-};
-bool same(double a, double b) {
-  return __builtin_bit_cast(std::uint64_t, a) == __builtin_bit_cast(std::uint64_t, b);
-}
-
 }  // namespace
 
 TEST_SUITE("contract") {
@@ -94,7 +68,7 @@ TEST_SUITE("contract") {
       }
       const auto values = typical_parameters(law);
       CHECK(law_problem(find_law(law.family, law.name), values.data(), kCopper) == nullptr);
-      CHECK(law.needs_shear_modulus == (law.family == "strength"));
+      CHECK(law.needs_shear_modulus == (law.family == "strength" || law.family == "model"));
       for (const ParameterInfo& p : law.parameters) {
         if (p.words != nullptr)
           CHECK(static_cast<std::size_t>(p.fallback) < parameter_words(p).size());
@@ -260,12 +234,13 @@ TEST_SUITE("contract") {
               using Real = decltype(real);
               const Sym3<Real> d = stress(get);
               return DamageDriver<Real>{
-                  d,       equivalent_stress(d), d.yz,  d.xz * 1e-8, Real(139e9),
-                  Real(G), 1e7 * get(eps),       get(T)};
+                  d,       equivalent_stress(d), d.yz,   d.xz * 1e-8, Real(139e9),
+                  Real(G), 1e7 * get(eps),       get(T), dt};
             };
             const auto one = law.growth(driver(lane, 0.0));
             const auto eight = law.growth(driver(wide, Pack(0.0)));
             REQUIRE(same(one.k, get(eight.k, i)));
+            REQUIRE(same(one.source, get(eight.source, i)));
             REQUIRE(same(one.eps_D, get(eight.eps_D, i)));
             const auto curve = make_law<VonMises>(std::vector{9e7, 3e8}.data(), kCopper).at(0.0);
             const Growth<double> growth{one.k, one.eps_D, one.phi_c};

@@ -116,9 +116,9 @@ KRATER_FORCE_INLINE CarriedEnergyStep<Real> close_carried(const PressureSplit<Re
           carried < Real(-spall_strength)};
 }
 
-/// `has_voids`: the strength law keeps voids out of the equation of state and limits the effective
+/// `dilates`: the strength law keeps voids out of the equation of state and limits the effective
 /// tension.
-template <class Law, Tension tension, bool has_voids>
+template <class Law, Tension tension, bool dilates>
 class EosStage final : public Stage {
  public:
   EosStage(const Law& law, double spall_strength, Layout& layout)
@@ -133,7 +133,7 @@ class EosStage final : public Stage {
         work_{layout.local_input<field::SpecificWork>(Law::name)} {
     if constexpr (carries) loss_ = layout.local_optional<field::CarriedLoss>();
     if constexpr (parts) failed_ = layout.state<field::Failed>(0.0, Law::name);
-    if constexpr (has_voids) {
+    if constexpr (dilates) {
       voids_ = layout.input<field::VoidVolume>(Law::name);
       tension_limit_ = layout.local_input<field::TensionLimit>(Law::name);
     }
@@ -153,7 +153,7 @@ class EosStage final : public Stage {
       Pack v = v_p(g, 1);
       const Pack per_rho = v;
       const Pack dv = v - v_p(g, 0);
-      if constexpr (has_voids) {
+      if constexpr (dilates) {
         v = v - view(batch, voids_)(g);
         rho = 1.0 / v;
       }
@@ -167,7 +167,7 @@ class EosStage final : public Stage {
         step = advance_energy(law, rho, v, p_p(g), e_p(g), dv, w_p(g));
         effective = step.pressure;
       }
-      if constexpr (has_voids) {
+      if constexpr (dilates) {
         const Pack least = view(batch, tension_limit_)(g);
         Pack carried = least;
         if constexpr (carries) carried = least * (Pack(1.0) - view(batch, loss_)(g, 0));
