@@ -77,6 +77,8 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   }
   declare_method_columns(scene);
   add_stages(factory);
+  if (!layout_.find(field::InternalEnergy::info.name))
+    layout_.state<field::InternalEnergy>(0, kMethod);  // of the ledger
   if (pressure_on_grid(scene)) layout_.local_output<field::DilatationCorrection>(kMethod);
   layout_.local_input<field::SignalSpeed>(kMethod);
   layout_.local_input<field::DilatationRate>(kMethod);

@@ -20,14 +20,9 @@ void watch_energy(const Simulation& sim, Warnings& warnings) {
   const double error = a.error_fraction();
   const bool wrong = !(std::abs(error) <= kEnergyError);
   if (!wrong) return warnings.judge("energy_error", false, sim.time(), "");
-  const double transfer = a.transfer_in + a.transfer_out;
-  const bool centring = std::abs(a.time_centring) > std::abs(transfer);
   warnings.judge("energy_error", true, sim.time(),
-                 fmt::format("energy error {:+.2f} % (energy_error_fraction; {:g} % allowed), most "
-                             "of it {} ({:+.4g} J)",
-                             100 * error, 100 * kEnergyError,
-                             centring ? "time_centring" : "transfer_in + transfer_out",
-                             centring ? a.time_centring : transfer));
+                 fmt::format("energy error {:+.2f} % (energy_error_fraction; {:g} % allowed)",
+                             100 * error, 100 * kEnergyError));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 ///   J_n = m_A m_B/(m_A + m_B) (v_A - v_B).n > 0,   J_t = min(mu J_n, the sticking value)
 /// against the slip, +J and -J, while they approach and touch; after the forces, before the walls.
 /// Linear and angular momentum are exact: both impulses act at one node. First contact on the grid
-/// is inelastic; its loss is booked, friction apart.
+/// is inelastic; its loss is heat of the node, once for all fields (contact/impulse_heat.hpp).
 ///
 /// Filling. phi_k = sum S V_p / (volume that S covers), 1 where body k fills the node; at closed
 /// sides the covered volume ends at the plane and phi is mirrored.
@@ -17,18 +17,17 @@
 /// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
 /// (contact/contact_regression.hpp), where neither body is the wider one. In nodes of a plane that
 /// mirrors n keeps no component across it.
-/// Touching (contact/contact_joint.cpp): bodies are apart as soon as one grid axis parts them.
-/// Along each axis that has A on one side of the joint and B on the other, either body's reach
-/// comes from its own three fillings:
-///   reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)),
-/// a face's place whatever part of the node's width the body takes, so that corners, edges and
-/// faces are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The
-/// volume criterion, sum phi > 1 - tol, is this one where both bodies are wide.
+/// Touching (step/contact_joint.cpp): bodies are apart as soon as one grid axis parts them. Along
+/// each axis that has A on one side of the joint and B on the other, either body's reach comes from
+/// its own three fillings: reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)), a
+/// face's place whatever part of the node's width the body takes, so that corners, edges and faces
+/// are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The volume
+/// criterion, sum phi > 1 - tol, is this one where both bodies are wide.
 /// Three and more fields: pairs in fixed order, three sweeps.
 ///
-/// Rigid fields (contact/rigid.hpp) count as of infinite mass and move with their own velocity at
-/// the node, two of them pass through each other. What a free body receives changes its velocity u
-/// in the same step; the nodes must meet the changed one, or contact with much mass would throw a
+/// Rigid fields (contact/rigid.hpp) count as of infinite mass and move with their own velocity at the
+/// node, two of them pass through each other. What a free body receives changes its velocity u in
+/// the same step; the nodes must meet the changed one, or contact with much mass would throw a
 /// light body back with energy that is not there. So u is foretold, implicitly in the impulses:
 ///   (1 + M^-1 K) du = M^-1 J(u),  K = sum m A^T P A,  A u = V + omega x r,
 /// P = n n^T where it slides, 1 where it sticks; then the impulses with u + du are exchanged and
@@ -37,21 +36,20 @@
 #include <vector>
 
 #include "krater/contact/boundary.hpp"
+#include "krater/contact/impulse_heat.hpp"
+#include "krater/kinematics/mpm/kernels.hpp"
 #include "krater/contact/rigid.hpp"
-#include "krater/points/columns.hpp"
 
 namespace krater {
 
 /// What contact did in one step.
 struct ContactWork {
-  double work = 0;              ///< change of the grid's kinetic energy [J]
-  double force_correction = 0;  ///< change of the work of the nodal forces, part of `work` [J]
-  double friction = 0;          ///< work of the tangential impulses, part of `work` [J]
-  double nodes = 0;             ///< pairs that pushed
-  double driven = 0;            ///< work of prescribed rigid bodies on others, part of `work` [J]
+  double change = 0;    ///< of kinetic energy, rigid bodies included [J]
+  double friction = 0;  ///< work of the tangential impulses, part of `change` [J]
+  double nodes = 0;     ///< pairs that pushed
+  double driven = 0;    ///< work of prescribed rigid bodies on others, part of `change` [J]
   void add(const ContactWork& o) {
-    work += o.work;
-    force_correction += o.force_correction;
+    change += o.change;
     friction += o.friction;
     nodes += o.nodes;
     driven += o.driven;
@@ -68,8 +66,11 @@ class ContactSet {
   void relink(const BlockGrid& grid);
   /// Change v+ and dv of [v+, m, dv, V] where fields touch, and the velocities of free rigid
   /// bodies unless the nodes are only those of a projection. Field k is body k.
-  ContactWork apply(BlockGrid& grid, const std::vector<PointColumns>& columns, RigidBodies& rigid,
+  ContactWork apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, RigidBodies& rigid,
                     bool projection = false);
+  /// What the pushes of the last call took from motion becomes heat of the nodes, which hold k
+  /// (contact/impulse_heat.hpp); returns it [J]. When every v+ is final.
+  double heat();
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -87,6 +88,12 @@ class ContactSet {
     Eigen::Matrix<double, 6, 1> push = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
   };
+  /// What a rigid body gives one node, whose loss it shares.
+  struct RigidPush {
+    std::size_t loss;
+    int body;
+    Eigen::Vector3d place, impulse;
+  };
   struct Group {
     std::size_t first;                  ///< of the node blocks with one key ...
     int fields;                         ///< ... one per field
@@ -95,9 +102,16 @@ class ContactSet {
     std::vector<double> inverse;        ///< 1/covered volume, per padded node
     std::vector<Contact> contacts;      ///< of the step, in order of their nodes
     std::vector<RigidShare> shares;     ///< of the step
+    ImpulseHeat heat;                   ///< of the step
+    std::vector<RigidPush> rigid_pushes;
+  };
+  struct Before {
+    double* node;
+    std::array<double, 3> velocity;
   };
   struct Scratch {
     std::vector<double> filling;  ///< per field, padded by two nodes on each side
+    std::vector<Before> before;   ///< fields of a node, before they push
   };
   /// A deformable field's node, struck by a rigid body.
   struct Strike {
@@ -115,17 +129,20 @@ class ContactSet {
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
-  void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
+  void find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
                      Scratch& scratch, const RigidBodies& rigid) const;
-  void refine(const BlockGrid& grid, const std::vector<PointColumns>& columns, const Group& group,
+  void refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, const Group& group,
               Contact& contact) const;
+  template <class Touch>
+  void exchange_node(BlockGrid& grid, Group& group, std::size_t first, std::size_t end,
+                     const Touch& touch) const;
   ContactWork exchange_group(BlockGrid& grid, Group& group, const RigidBodies& rigid) const;
-  void hand_over(RigidBodies& rigid, ContactWork& sum) const;
+  void hand_over(RigidBodies& rigid, ContactWork& sum);
   void foretell(const BlockGrid& grid, RigidBodies& rigid);
   Strike strike_of(const BlockGrid& grid, const Group& group, const Contact& contact,
                    bool a_is_rigid) const;
   void probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const;
-  void exchange(const Strike& strike, const RigidTwist& twist, RigidShare& share,
+  void exchange(const Strike& strike, const RigidTwist& twist, Group& group,
                 ContactWork& sum) const;
   static RigidShare& share_of(Group& group, int body);
   void link(const BlockGrid& grid, Group& group) const;
@@ -144,7 +161,8 @@ class ContactSet {
   int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;
   std::vector<RigidTwist> twists_;  ///< by body: velocities that nodes meet in this step
-  std::vector<Scratch> scratch_;
+  mutable std::vector<Scratch> scratch_;
+  std::vector<double> heats_;
   std::vector<ContactWork> results_;
 };
 

@@ -70,6 +70,7 @@ struct PatchResult {
   double kinetic = 0;        ///< [J], affine part included
   double internal = 0;       ///< [J]
   double external_work = 0;  ///< [J] of body forces in the step
+  double heat_given = 0, heat_taken = 0;  ///< [J] of the ledger, sums over cells with either sign
   double stretch = 0;        ///< fixed reference: largest |F^T F - I|
   Ledger ledger;
   Fault fault;

@@ -29,6 +29,10 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
   using T = PartTraits<Part>;
   const PatchOrigin origin = origin_of<D>(patch);
   const GridGeometry& grid = *s.geometry;
+  const CellLedger<D> ledger{w.cells + kCellLedger};
+  double base[D];  // of the first point, where the ledger counts from; none where no cell has a mean
+  for (int a = 0; a < D; ++a) base[a] = s.gamma > 0 ? get(view.velocity(0, a), 0) : 0;
+  if constexpr (T::velocity) ledger.clear();
   LaneWeights<D> lw;
   PointSums<D> n;
   for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
@@ -38,8 +42,8 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
                                      lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;
-    if (s.average_cells) store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
-    const Pack r = view.position(g, 0);
+    store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
+    const Alone alone = alone_points<D>(view, n, lw, g);
 
     Pack check = n.V[0];
     for (int a = 0; a < D; ++a)
@@ -48,19 +52,32 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     if (bad != 0 && patch.result.fault.kind == FaultKind::none)
       patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
 
+    if constexpr (T::velocity)
+      book_work<Frame, Configuration>(view, n, s, patch.beta.data(), cell, cells, g);
     if constexpr (T::strain) {
-      const Pack trace = store_gradient<Frame, Configuration, T::ended>(view, n, r, s.dt, g);
+      const Pack trace =
+          store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s.dt, g);
       view.extra_dilatation.set(
           g, trace);  // tr L for now; average_dilatation() turns it into the increment
-      if (s.average_cells) cells.add(cell, view.mass(g) / view.density(g), trace);
+      if (s.average_cells) cells.add_value(cell, view.mass(g) / view.density(g), trace);
       if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
     }
-    if constexpr (T::velocity || T::move || T::keep) {
-      move_points<Frame, Configuration, Part>(view, n, s, g, sums);
+    if (s.average_cells) cells.add_volume(cell, view.mass(g) / view.density(g));
+    Pack old[D];
+    for (int a = 0; a < D; ++a) old[a] = view.velocity(g, a);
+    if constexpr (T::velocity) {
+      Pack slots[8];
+      update_velocity<D, Affine>(view, n, s, base, alone.silent, g, slots);
+      ledger.add(cell, slots);
+      const Pack m = view.mass(g);
+      for (int a = 0; a < D; ++a)
+        sums.external = fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), n.V[4 + a], n.V[a]),
+                            sums.external);
     }
-    if constexpr (T::velocity && Affine) carry_gradient<Frame>(view, n, lw, g);
+    if constexpr (T::velocity || T::move || T::keep)
+      move_points<Frame, Configuration, Part>(view, n, old, s, g);
     if constexpr (T::last) {
-      sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
+      if constexpr (!T::velocity) sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
       unsigned gone = 0;
       if constexpr (!Configuration::fixed)
         gone = bits(left_block<D>(s, origin, view.grid_position, g) &
@@ -68,6 +85,34 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
       w.leavers[g] = static_cast<unsigned char>(gone);
     }
   }
+}
+
+/// The means of the cells, when all points of the patch have been seen: velocities, heat, and what
+/// the mean dilatation adds to the work of the pressure.
+template <int Dim, bool Affine, GatherPart Part>
+void settle(Patch& patch, const SweepSettings& s, const SweepScratch& w, const GatherViews& view,
+            const CellSums& cells, GatherSums& sums) {
+  const CellLedger<Dim> ledger{w.cells + kCellLedger};
+  ledger.close(s.gamma, patch.result.heat_given, patch.result.heat_taken);
+  if (s.average_cells) cells.second().divide();
+  for (int g = 0; g < patch.points.groups(); ++g) {
+    const double* cell = w.pressures + kLanes * g;
+    Pack slots[8];
+    ledger.look_up(cell, slots);
+    for (int a = 0; a < Dim; ++a)
+      view.velocity.set(
+          g, a, fma(Pack(s.gamma), slots[CellLedger<Dim>::residual + a], view.velocity(g, a)));
+    Pack e = view.energy(g) + slots[CellLedger<Dim>::heat];
+    if (s.average_cells) {
+      const Pack share = look_up(patch.beta.data(), cell) * look_up(cells.mean_rate, cell);
+      e = fnma(s.dt / view.density(g), (view.pressure(g) + view.viscous(g)) * share, e);
+    }
+    view.energy.set(g, e);
+    sums.internal = fma(view.mass(g), e, sums.internal);
+    if constexpr (PartTraits<Part>::last)
+      sum_kinetic<Dim, Affine>(view, 0.25 * s.geometry->h * s.geometry->h, g, sums);
+  }
+  patch.result.internal = sum(sums.internal);
 }
 
 /// ExtraDilatation: tr L -> dt beta (tr_c - tr L).
@@ -102,7 +147,7 @@ KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& 
 /// Second pass: constitutive update.
 template <int Dim, class Configuration>
 void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
-                const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
+                const SweepScratch& w, const GatherViews& view) {
   const PointColumns& c = body.columns;
   const ReadView rate{w.local + c.local_rate, c.local_stride};
   alignas(64) double length[kLanes];
@@ -122,10 +167,10 @@ void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s
                           length,
                           0,
                           &patch.result.ledger,
-                          &patch.result.fault};
+                          &patch.result.fault,
+                          0};
     for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
-    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0,
-                                     sums);
+    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0);
   }
 }
 
@@ -134,22 +179,25 @@ void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& bod
                   const SweepSettings& s, const SweepScratch& w) {
   constexpr int D = Frame::dim;
   using T = PartTraits<Part>;
-  load_halo<D>(grid.nodes(), patch, w.halo);
+  load_nodes<D>(grid, patch, w.halo);
   const GatherViews view = make_views(patch, body.columns, w);
-  const CellSums cells{w.cells, w.cells + kBlockNodes};
-  if (s.average_cells) cells.clear();
-  const bool fluid = T::strain && body.columns.local_correction >= 0;
-  if (fluid) {  // with the weights of the force, before the points move
+  const CellSums cells{w.cells, w.cells + kBlockNodes, w.cells + 2 * kBlockNodes};
+  if (s.average_cells) {
+    cells.clear();
+    clear_cells(cells.mean_rate);
+  }
+  const bool fluid = body.columns.local_correction >= 0;
+  if (fluid && (T::strain || T::velocity)) {  // with the weights of the force: before points move
     load_halo<D>(s.pressure_nodes, patch, w.pressure_halo);
-    correct_dilatation(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
+    correct_dilatation<T::velocity>(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
   }
   GatherSums sums;
   gather_nodes<Frame, Shape, Affine, Configuration, Part>(patch, s, w, view, cells, sums);
+  if constexpr (T::velocity) settle<D, Affine, Part>(patch, s, w, view, cells, sums);
   if (T::strain && patch.result.fault.kind == FaultKind::none) {
     average_dilatation(patch, s, w, view, cells);
     if (fluid) add_correction(patch, body.columns, s, w, view);
-    run_stages<D, Configuration>(patch, body, s, w, view, sums);
-    patch.result.internal = sum(sums.internal);
+    run_stages<D, Configuration>(patch, body, s, w, view);
   }
   if (T::last) patch.result.kinetic = sum(sums.kinetic);
   if (T::velocity) patch.result.external_work = s.dt * sum(sums.external);
