@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/contact/impulse_heat.hpp"
 
-#include "krater/kinematics/mpm/kernels.hpp"
+#include "krater/grid/blocks.hpp"
 
 namespace krater {
 

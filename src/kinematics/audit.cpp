@@ -12,6 +12,10 @@ void Audit::book_step(const StepHeat& heat) {
   transfer_gain += heat.taken;
   contact_heat += heat.contact;
   wall_heat += heat.walls;
+  numerical_heat += heat.numerical;
+  carried = heat.carried;
+  largest_carried = std::max(largest_carried, -carried);
+  carriers += heat.carriers;
 }
 
 void Audit::book_events(const Ledger& ledger) {

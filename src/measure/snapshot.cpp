@@ -167,6 +167,8 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "viscous_work", "J", a.viscous_work);
   add(row, "transfer_loss", "J", a.transfer_loss);
   add(row, "transfer_gain", "J", a.transfer_gain);
+  add(row, "numerical_heat", "J", a.numerical_heat);
+  add(row, "carried_energy", "J", a.carried);
   add(row, "wall_heat", "J", a.wall_heat);
   add(row, "wall_work", "J", a.wall_work);
   add(row, "contact_heat", "J", a.contact_heat);
@@ -220,6 +222,9 @@ Json audit_json(const Simulation& sim) {
   j["friction_work"] = Json::of(a.friction_work);
   j["transfer_loss"] = Json::of(a.transfer_loss);
   j["transfer_gain"] = Json::of(a.transfer_gain);
+  j["numerical_heat"] = Json::of(a.numerical_heat);
+  j["carried_energy"] = Json::of(a.carried);
+  j["largest_carried_energy"] = Json::of(a.largest_carried);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);
@@ -242,6 +247,7 @@ Json audit_json(const Simulation& sim) {
   events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
   events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
   events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
+  events["carriers"] = Json::of(static_cast<std::int64_t>(a.carriers));
   events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
   events["penetrations"] = Json::of(static_cast<std::int64_t>(a.penetrations));
   events["deepest_reflection_cells"] = Json::of(a.deepest_reflection);

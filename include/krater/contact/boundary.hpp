@@ -29,9 +29,9 @@
 #include <array>
 #include <vector>
 
-#include "krater/grid/blocks.hpp"
 #include "krater/contact/impulse_heat.hpp"
 #include "krater/contact/options.hpp"
+#include "krater/grid/blocks.hpp"
 
 namespace krater {
 
@@ -49,7 +49,7 @@ class BoundarySet {
  public:
   /// `fixed_reference`: nodes are not where the material is. A wall then holds the columns that lie
   /// on it in the reference while their material is at the wall, see note_gaps(); what reaches the
-  /// wall from elsewhere is held point by point (kinematics/mpm/reference.hpp).
+  /// wall from elsewhere is held point by point (mpm/reference.hpp).
   BoundarySet(const GridGeometry& geometry, const BoundaryConditions& conditions,
               bool fixed_reference = false)
       : geometry_{geometry}, conditions_{conditions}, fixed_reference_{fixed_reference} {}

@@ -17,17 +17,18 @@
 /// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
 /// (contact/contact_regression.hpp), where neither body is the wider one. In nodes of a plane that
 /// mirrors n keeps no component across it.
-/// Touching (step/contact_joint.cpp): bodies are apart as soon as one grid axis parts them. Along
-/// each axis that has A on one side of the joint and B on the other, either body's reach comes from
-/// its own three fillings: reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)), a
-/// face's place whatever part of the node's width the body takes, so that corners, edges and faces
-/// are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The volume
-/// criterion, sum phi > 1 - tol, is this one where both bodies are wide.
+/// Touching (contact/contact_joint.cpp): bodies are apart as soon as one grid axis parts them.
+/// Along each axis that has A on one side of the joint and B on the other, either body's reach
+/// comes from its own three fillings:
+///   reach = 1.6 (phi(0) - (phi(-1) + phi(1))/2) / (phi(-1) - phi(1)),
+/// a face's place whatever part of the node's width the body takes, so that corners, edges and
+/// faces are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The
+/// volume criterion, sum phi > 1 - tol, is this one where both bodies are wide.
 /// Three and more fields: pairs in fixed order, three sweeps.
 ///
-/// Rigid fields (contact/rigid.hpp) count as of infinite mass and move with their own velocity at the
-/// node, two of them pass through each other. What a free body receives changes its velocity u in
-/// the same step; the nodes must meet the changed one, or contact with much mass would throw a
+/// Rigid fields (contact/rigid.hpp) count as of infinite mass and move with their own velocity at
+/// the node, two of them pass through each other. What a free body receives changes its velocity u
+/// in the same step; the nodes must meet the changed one, or contact with much mass would throw a
 /// light body back with energy that is not there. So u is foretold, implicitly in the impulses:
 ///   (1 + M^-1 K) du = M^-1 J(u),  K = sum m A^T P A,  A u = V + omega x r,
 /// P = n n^T where it slides, 1 where it sticks; then the impulses with u + du are exchanged and
@@ -37,8 +38,8 @@
 
 #include "krater/contact/boundary.hpp"
 #include "krater/contact/impulse_heat.hpp"
-#include "krater/kinematics/mpm/kernels.hpp"
 #include "krater/contact/rigid.hpp"
+#include "krater/points/columns.hpp"
 
 namespace krater {
 
@@ -66,7 +67,7 @@ class ContactSet {
   void relink(const BlockGrid& grid);
   /// Change v+ and dv of [v+, m, dv, V] where fields touch, and the velocities of free rigid
   /// bodies unless the nodes are only those of a projection. Field k is body k.
-  ContactWork apply(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, RigidBodies& rigid,
+  ContactWork apply(BlockGrid& grid, const std::vector<PointColumns>& columns, RigidBodies& rigid,
                     bool projection = false);
   /// What the pushes of the last call took from motion becomes heat of the nodes, which hold k
   /// (contact/impulse_heat.hpp); returns it [J]. When every v+ is final.
@@ -129,9 +130,9 @@ class ContactSet {
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
   int mirrored(int axis, int index) const;
-  void find_contacts(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, Group& group,
+  void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
                      Scratch& scratch, const RigidBodies& rigid) const;
-  void refine(const BlockGrid& grid, const std::vector<BodyKernelData>& bodies, const Group& group,
+  void refine(const BlockGrid& grid, const std::vector<PointColumns>& columns, const Group& group,
               Contact& contact) const;
   template <class Touch>
   void exchange_node(BlockGrid& grid, Group& group, std::size_t first, std::size_t end,

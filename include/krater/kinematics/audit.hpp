@@ -33,6 +33,9 @@ struct Audit {
   /// Sums over cells and steps of what the ledger gave as heat, and took back (negative) [J];
   /// contact and walls apart.
   double transfer_loss = 0, transfer_gain = 0;
+  double numerical_heat = 0;  ///< of these, in matter whose pressure does not know its energy
+  double carried = 0;         ///< heat that could not be taken, owed by points now (negative) [J]
+  double largest_carried = 0, carriers = 0;  ///< the most so far; cells and steps that came short
   double contact_heat = 0;   ///< what contact took from motion, friction included [J]
   double friction_work = 0;  ///< of tangential impulses, negative [J]
   double wall_heat = 0;      ///< what sides of the domain took from motion [J]
@@ -55,6 +58,8 @@ struct Audit {
   /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls included.
   struct StepHeat {
     double given = 0, taken = 0, contact = 0, walls = 0;
+    double numerical = 0;  ///< of given and taken, where the pressure does not know the energy
+    double carried = 0, carriers = 0;
   };
   void book_step(const StepHeat& heat);
   void book_events(const Ledger& ledger);
@@ -76,9 +81,12 @@ struct Audit {
     const double start = initial_kinetic + initial_internal;
     return start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
   }
-  /// What is missing (positive) or came from nowhere, by scale().
+  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that nothing
+  /// feels, heat that is owed. All of it as magnitudes.
   double error_fraction() const {
-    return scale() != 0 ? -residual(kinetic, internal) / scale() : 0.0;
+    if (scale() == 0) return 0;
+    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried)) /
+           scale();
   }
 };
 

@@ -103,6 +103,10 @@ struct StageFactory {
   /// where the law has no such end. Made when the strength's own stages are.
   StagesAround (*cohesion)(int eos, const double* values, const MaterialConstants& constants,
                            Layout& layout);
+  /// Heat that may be taken (materials/stages/heat_floor_stage.hpp); null where the pressure of the
+  /// law does not know the energy.
+  Stage* (*heat_floor)(int eos, const double* values, const MaterialConstants& constants,
+                       Layout& layout);
   Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
   Stage* (*signal_speed)(double q_lin, double q_quad,
                          Layout& layout);  ///< always last: c_L, Qv -> signal speed

@@ -99,8 +99,9 @@ void MpmStep::watch_energy(const GridEnergy& grid, const Constraints& c) const {
 
 // k of all nodes, when v+ is final, in place of the volumes.
 void MpmStep::write_node_work() {
+  const bool moments = settings(0).moments;
   for_each(grid_.node_blocks().size(), [&](std::size_t n) {
-    if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks[n]);
+    if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks()[n], moments);
   });
   lap(Phase::nodes);
   heat_ = {};
@@ -125,20 +126,21 @@ void MpmStep::account_folds(Constraints& c, double dt) const {
 }
 
 double MpmStep::step_usl(double dt) {
+  const bool xpic = method_.transfer == Transfer::xpic;
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
   GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
+  if (xpic) note_forces();
   Constraints constraints = constrain();
   account_folds(constraints, dt);
-  write_node_work();
-  if (method_.transfer == Transfer::xpic) {
+  if (!xpic) write_node_work();
+  if (xpic) {
     const std::array<double, 3> impulse = filter_velocity();
     for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
   }
   watch_energy(grid, constraints);
-  grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
-                    dt);
+  grid_to_particles(xpic ? GatherPart::filter_move : GatherPart::all, dt);
   book(constraints);
   return dt;
 }
@@ -197,6 +199,7 @@ SweepSettings MpmStep::settings(double dt) const {
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
   s.gamma = cell_alpha_of(method_) - std::min(cell_alpha_of(method_), s.alpha);
+  s.moments = cell_alpha_of(method_) < 1;
   s.average_cells = method_.cell_averaging;
   s.pressure_nodes = pressure_nodes_.data();
   for (int a = 0; a < grid_.geometry().dimension; ++a) {
@@ -364,6 +367,10 @@ void MpmStep::combine_patches(GatherPart part) {
       audit_.step_external += r.external_work;
       heat_.given += r.heat_given;
       heat_.taken += r.heat_taken;
+      if (bodies_[static_cast<std::size_t>(grid_.patches()[p].body)].heat_floor == nullptr)
+        heat_.numerical += r.heat_given + r.heat_taken;
+      heat_.carried += r.carried;
+      heat_.carriers += r.carriers;
     }
     audit_.book_events(r.ledger);
     if (r.max_rate > limit_.rate)

@@ -82,7 +82,7 @@ void load_nodes(const BlockGrid& grid, const Patch& patch, double* halo) {
   unsigned kept = 0;
   for (int corner = 0; corner < corner_count(Dim); ++corner)
     if (keeps_volumes(grid.node_blocks()[static_cast<unsigned>(
-            patch.node_blocks[static_cast<unsigned>(corner)])]))
+            patch.links.node_blocks[static_cast<unsigned>(corner)])]))
       kept |= 1U << corner;
   if (kept == 0) return;
   for (int n = 0; n < tile_nodes(Dim); ++n) {
@@ -183,15 +183,35 @@ KRATER_FORCE_INLINE void book_work(const GatherViews& view, const PointSums<Fram
   view.energy.set(g, fma(s.dt * v, power, view.energy(g)));
 }
 
+/// Where no mean of the cell is kept (APIC, XPIC) the loss on the way to the grid is taken pair by
+/// pair, sum S |u_ip - v-_i|^2/2 with u = v_p + L d, which no motion of the observer changes; the
+/// nodes hold k + |v-|^2, and this is the rest, v_p.s- + L : sum S v- (x) d.
+template <int Dim, bool Affine>
+KRATER_FORCE_INLINE Pack shared_motion(const GatherViews& view, const PointSums<Dim>& n,
+                                       const double* halo, LaneWeights<Dim>& lw, int g) {
+  Pack sum = 0.0;
+  for (int a = 0; a < Dim; ++a) sum = fma(view.velocity(g, a), n.V[a] - n.V[4 + a], sum);
+  if constexpr (Affine) {
+    for (int a = 0; a < Dim; ++a)
+      for (int i = 0; i < 3; ++i) store(lw.d[a][i], load(lw.xw[a][i]));
+    PointSums<Dim> moment;
+    gather_group<Dim>(halo, lw, moment);
+    for (int a = 0; a < Dim; ++a)
+      for (int i = 0; i < Dim; ++i)
+        sum = fma(view.affine(g, Dim * i + a), moment.G[a][i] - moment.G[a][4 + i], sum);
+  }
+  return sum;
+}
+
 /// Velocities of 8 points, without the means of their cells, and L; the loss of their motion into
-/// the ledger. `base`: the velocity from which the ledger counts.
+/// the ledger. `base`: the velocity from which the ledger counts; `loss`: sum S k.
 template <int Dim, bool Affine>
 KRATER_FORCE_INLINE void update_velocity(const GatherViews& view, const PointSums<Dim>& n,
                                          const SweepSettings& s, const double* base, Mask silent,
-                                         int g, Pack (&slots)[8]) {
+                                         Pack loss, int g, Pack (&slots)[8]) {
   using Cell = CellLedger<Dim>;
   const Pack m = view.mass(g), filter = 1.0 - s.alpha;
-  Pack loss = n.V[kNodeWork], squares = 0.0;
+  Pack squares = 0.0;
   for (Pack& slot : slots) slot = 0.0;
   slots[Cell::mass] = m;
   for (int a = 0; a < Dim; ++a) {

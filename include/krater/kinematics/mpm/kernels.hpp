@@ -2,47 +2,36 @@
 #pragma once
 /// \file kinematics/mpm/kernels.hpp
 /// The hot loops of the step behind one virtual call per block. An implementation exists for each
-/// frame, shape and instruction-set level (src/step/kernels_*_hot.cpp); everything that crosses
-/// this line is plain data.
+/// frame, shape and instruction-set level (mpm/kernels_*_hot.cpp); everything that crosses this
+/// line is plain data.
 ///
 /// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the
 /// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-; for the gather
 /// the work k of the step (kinematics/mpm/ledger.hpp) takes the place of V. Two-dimensional frames leave
 /// index 2 unused.
 #include <array>
+#include <vector>
 
 #include "krater/grid/blocks.hpp"
-#include "krater/materials/stage.hpp"
 #include "krater/kinematics/mpm/pressure_nodes.hpp"
+#include "krater/materials/stage.hpp"
+#include "krater/points/columns.hpp"
 
 namespace krater {
-
-inline constexpr int kNodeWork = 7;  ///< k [J/kg]
-/// A block at rest, whose tiles may not be summed again, keeps its volumes: there k is zero.
-inline bool keeps_volumes(const NodeBlock& block) { return block.still && !block.at_boundary; }
-
-/// Where the method finds its columns: offsets in the state record, -1 where a column does not
-/// exist.
-struct PointColumns {
-  int stride = 0, local_stride = 0;
-  int grid_position = -1;  ///< where the weights are taken: `position`, or on a fixed reference
-  int map = -1;            ///< fixed reference: F since then, over grid axes
-  int position = -1, velocity = -1, mass = -1, density = -1;
-  int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
-  int removed = -1;  ///< `failed` where failure takes points out of the computation
-  int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
-  int domain = -1, deformation = -1;
-  int local_gradient = -1, local_dilatation = -1, local_signal = -1,
-      local_rate = -1;        ///< local record
-  int local_correction = -1;  ///< of a fluid, whose pressure is integrated on the grid
-};
 
 /// One body as the kernels see it.
 struct BodyKernelData {
   PointColumns columns;
   const Stage* const* stages = nullptr;
   int stage_count = 0;
+  const Stage* heat_floor = nullptr;  ///< none: the pressure does not know the energy
 };
+
+inline std::vector<PointColumns> columns_of(const std::vector<BodyKernelData>& bodies) {
+  std::vector<PointColumns> out;
+  for (const BodyKernelData& body : bodies) out.push_back(body.columns);
+  return out;
+}
 
 /// What all blocks of a sweep share.
 struct SweepSettings {
@@ -50,6 +39,7 @@ struct SweepSettings {
   double dt = 0;
   double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
   double gamma = 0;            ///< share of its mean over the cell that is given back
+  bool moments = false;        ///< none is: the ledger takes the loss pair by pair
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18
   const double* pressure_nodes = nullptr;  ///< second records of all node blocks; none: no fluid
@@ -101,8 +91,9 @@ class Kernels {
   virtual void sum_tiles(const BlockGrid& grid, NodeBlock& block) const = 0;
   /// v- = p/m, dv = dt_force f/m, v+ = v- + dv, and the sums of the audit.
   virtual void momentum(NodeBlock& block, const MomentumSettings& s) const = 0;
-  /// k of each node in place of its volume, when v+ is final (kinematics/mpm/ledger.hpp).
-  virtual void work(NodeBlock& block) const = 0;
+  /// k of each node in place of its volume, when v+ is final (kinematics/mpm/ledger.hpp);
+  /// with `moments` k + |v-|^2.
+  virtual void work(NodeBlock& block, bool moments) const = 0;
   /// Velocities, positions, stresses of one patch from the nodes.
   virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
                       const SweepSettings& s, const SweepScratch& w, GatherPart part) const = 0;

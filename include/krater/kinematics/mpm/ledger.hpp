@@ -19,6 +19,9 @@
 /// |v'|^2 - |v|^2, and velocities are taken from that of the patch's first point.
 /// With cell averages (1 - b) p + b P_c is scattered; W then has the trace (1 - b) tr + b tr_c,
 /// which is the adjoint, so that sums agree and a point's energy follows its own volume.
+/// E_c < 0 is taken from the heat a of the points (materials/stages/heat_floor_stage.hpp), in
+/// proportion to it and no more than there is; the rest is carried by the points of the cell as a
+/// debt, which counts in the internal energy, and paid from what they are given next.
 /// e is that of t_{n+1/2}, where the velocities are; the stages find the pressure half a step ahead.
 /// Sources: Burgess, Sulsky, Brackbill 1992 (JCP 103, 1) for the loss of the round trip; Caramana,
 /// Burton, Shashkov, Whalen 1998 (JCP 146, 227) for the work of the very forces; DeBar 1974.
@@ -32,10 +35,12 @@ namespace krater::inline KRATER_ISA {
 inline constexpr int kCellLedger = 3 * kBlockNodes;
 
 /// Sums of each cell of a block over 8 slots [M, sum m r, sum m (v1 - v_0), Q], then
-/// [.., <r>, .., E_c/M_c]; Q = sum m (n + gamma r.(v1 - v_0) - gamma^2/2 |r|^2).
+/// [.., <r>, .., E_c/M_c]; Q = sum m (n + gamma r.(v1 - v_0) - gamma^2/2 |r|^2). Where matter knows
+/// its energy two more, in place of the velocities: heat taken over what there is, energy carried.
 template <int Dim>
 struct CellLedger {
-  static constexpr int mass = 0, residual = 1, velocity = 1 + Dim, heat = 7;
+  static constexpr int mass = 0, residual = 1, velocity = 1 + Dim, taken = velocity,
+                       carried = velocity + 1, heat = 7;
   double* records;  ///< 8 per cell
 
   KRATER_FORCE_INLINE void clear() const {
@@ -70,6 +75,13 @@ struct CellLedger {
     }
   }
 };
+
+/// Sums over cells from a loop over points, one slot of the records.
+KRATER_FORCE_INLINE void add_slot(double* records, int slot, const double* cells, Pack quantity) {
+  alignas(64) double q[8];
+  store(q, quantity);
+  for (int l = 0; l < kLanes; ++l) records[8 * static_cast<int>(cells[l]) + slot] += q[l];
+}
 
 /// L+ - DL/2 of 8 points over tensor axes, and its trace; on a fixed reference `inverse` is F^-1.
 template <class Frame>

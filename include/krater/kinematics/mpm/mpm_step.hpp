@@ -103,6 +103,8 @@ class MpmStep {
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
   std::array<double, 3> filter_velocity();
+  void note_forces();
+  void write_filtered_work();
   void relink_fluids();
   double* second_record(double* node);
   void sweep_fluids(PressurePart part, const SweepSettings& s);

@@ -94,7 +94,7 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& 
 }
 
 /// k = (v- + dv/2) . dv in place of the volume, from the final v+ (kinematics/mpm/ledger.hpp).
-KRATER_FORCE_INLINE void work_of_block(NodeBlock& block) {
+KRATER_FORCE_INLINE void work_of_block(NodeBlock& block, bool moments) {
   for (int first = 0; first < kBlockNodes; first += kLanes) {
     double* record = block.nodes + kNodeDoubles * first;
     Pack n[8];
@@ -102,6 +102,8 @@ KRATER_FORCE_INLINE void work_of_block(NodeBlock& block) {
     transpose8(n);
     Pack k = 0.0;
     for (int a = 0; a < 3; ++a) k = fma(fnma(Pack(0.5), n[4 + a], n[a]), n[4 + a], k);
+    if (moments)
+      for (int a = 0; a < 3; ++a) k = fma(n[a] - n[4 + a], n[a] - n[4 + a], k);
     alignas(64) double out[8];
     store(out, k);
     for (int i = 0; i < 8; ++i) record[8 * i + kNodeWork] = out[i];

@@ -21,7 +21,7 @@ class TransferKernels final : public Kernels {
   void momentum(NodeBlock& block, const MomentumSettings& s) const override {
     update_block(block, s);
   }
-  void work(NodeBlock& block) const override { work_of_block(block); }
+  void work(NodeBlock& block, bool moments) const override { work_of_block(block, moments); }
   void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
               const SweepSettings& s, const SweepScratch& w, GatherPart part) const override {
     if constexpr (Configuration::fixed) return run<GatherPart::all>(patch, grid, body, s, w);
