@@ -34,9 +34,6 @@ void set_velocity(double* node, int axis, double value) {
   node[kVelocity + axis] = value;
 }
 
-/// p^2/m of a node, nothing where there is no mass.
-double square_over(double p, double m) { return m > 0 ? p * p / m : 0; }
-
 /// Coulomb: tangential velocities slow down by mu J_n, at most to rest.
 void slow_down(double* node, int normal, double impulse_over_mass) {
   double slip = 0;
@@ -135,7 +132,7 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
       const auto node = [&](const std::array<int, 3>& at) {
         return grid.find_node(at, block.field);
       };
-      const Column column{node(ghost), node(index), node(inner), !rigid, 0, {}};
+      const Column column{node(ghost), node(index), node(inner), !rigid, {}, 0, {}};
       if (column.ghost == nullptr || column.inner == nullptr) continue;
       plane.columns.push_back(column);
       block.at_wall = block.at_wall || plane.condition->kind == BoundaryKind::wall;
@@ -151,7 +148,14 @@ void BoundarySet::list_held_nodes() {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   held_.clear();
-  for (double* node : nodes) held_.push_back({node, {}});
+  for (double* node : nodes) held_.push_back({node, {}, {}});
+  const auto place = [&nodes](double* node) {
+    return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
+                                    nodes.begin());
+  };
+  for (Plane& plane : planes_)
+    if (plane.condition->pushes())
+      for (Column& c : plane.columns) c.held = {place(c.ghost), place(c.plane), place(c.inner)};
 }
 
 void BoundarySet::note_gaps() {
@@ -173,13 +177,11 @@ bool BoundarySet::drives() const {
 void BoundarySet::fold() {
   for (Plane& plane : planes_) {
     if (!plane.condition->folds()) continue;
-    plane.fold_loss = 0;
     for (Column& c : plane.columns) fold_column(plane, c);
   }
 }
 
 void BoundarySet::fold_column(Plane& plane, Column& c) const {
-  double loss = 0;  // twice the kinetic energy of the odd components
   c.folded.ghost_mass = c.ghost[kMass];
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<unsigned>(a);
@@ -192,27 +194,20 @@ void BoundarySet::fold_column(Plane& plane, Column& c) const {
       c.folded.ghost_force[k] = c.ghost[kForce + a];
       c.folded.plane_momentum[k] = p_0;
       c.folded.plane_force[k] = c.plane[kForce + a];
-      loss += square_over(p, c.inner[kMass]) + square_over(p_0, c.plane[kMass]) +
-              square_over(p_g, c.ghost[kMass]);
     }
     p += sign * p_g;
     c.inner[kForce + a] += sign * c.ghost[kForce + a];
-    if (odd) {
-      loss -= square_over(p, c.inner[kMass] + c.ghost[kMass]);
-      p_0 = c.plane[kForce + a] = 0;
-    }
+    if (odd) p_0 = c.plane[kForce + a] = 0;
   }
   c.inner[kMass] += c.ghost[kMass];
   c.inner[kVolume] += c.ghost[kVolume];
   std::fill(c.ghost, c.ghost + kNodeDoubles, 0.0);
-  if (c.moves_points) plane.fold_loss += 0.5 * loss;
 }
 
 BoundaryWork BoundarySet::folded(double dt, double alpha) const {
   BoundaryWork sum;
   for (const Plane& plane : planes_) {
     if (!plane.condition->folds()) continue;
-    sum.fold_work -= (1 - alpha * alpha) * plane.fold_loss;
     for (const Column& c : plane.columns) {
       if (!c.moves_points) continue;
       const Folded& f = c.folded;
@@ -233,21 +228,51 @@ BoundaryWork BoundarySet::folded(double dt, double alpha) const {
 // meet in a corner share nodes, and joined masses.
 BoundaryWork BoundarySet::constrain() {
   BoundaryWork sum;
-  for (Held& h : held_) std::copy_n(h.node, kNodeDoubles, h.before.begin());
+  heat_.clear();
+  for (Held& h : held_) {
+    std::copy_n(h.node, kNodeDoubles, h.before.begin());
+    std::copy_n(h.node, 3, h.last.begin());
+  }
   for (const Plane& plane : planes_)
     if (plane.condition->pushes())
-      for (const Column& c : plane.columns) sum.columns_in_contact += hold(plane, c) ? 1 : 0;
+      for (const Column& c : plane.columns)
+        if (hold(plane, c)) note_push(plane, c, sum);
   if (sum.columns_in_contact == 0) return sum;
   for (const Held& h : held_) {
     const double m = h.before[kNodeMass];
     for (unsigned a = 0; a < 3; ++a) {
       const double old = h.before[kVelocity + a], now = h.node[kVelocity + a], change = now - old;
       sum.impulse[a] += m * change;
-      sum.work += 0.5 * m * (now * now - old * old);
-      // Forces work over the mean of v- and the final v+.
-      sum.force_correction += 0.5 * m * h.before[kChange + a] * change;
+      sum.change += 0.5 * m * (now * now - old * old);
     }
   }
+  return sum;
+}
+
+// A side works by its own velocity on what it pushes.
+void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& sum) {
+  double work = 0;
+  for (const std::size_t i : c.held) {
+    Held& h = held_[i];
+    const double m = h.before[kNodeMass];
+    std::array<double, 3> change{};
+    for (unsigned a = 0; a < 3; ++a) {
+      change[a] = h.node[kVelocity + a] - h.last[a];
+      h.last[a] = h.node[kVelocity + a];
+      work += m * change[a] * plane.condition->velocity[a];
+    }
+    heat_.add(h.node, m, change);
+  }
+  heat_.close(work);
+  sum.work += work;
+  sum.columns_in_contact += 1;
+}
+
+double BoundarySet::heat() {
+  const double sum = heat_.book();
+  for (const Plane& plane : planes_)
+    if (plane.condition->folds())
+      for (const Column& c : plane.columns) c.ghost[kVolume] = c.inner[kVolume];
   return sum;
 }
 

@@ -19,24 +19,24 @@ struct Source {
   const char* remedy;
 };
 
-std::array<Source, 4> sources(const Audit& a) {
-  return {
-      {{"transfer between points and grid", -(a.transfer_in + a.transfer_out),
-        "another method.transfer or method.update, a viscosity block, a smaller grid.cell"},
-       {"time centring", -a.time_centring, "a smaller time.cfl"},
-       {"wall work", a.wall_work, "a smaller time.cfl; a look at what meets the sides of grid.box"},
-       {"contact work", a.contact_work,
-        "a smaller time.cfl or grid.cell; a look at where bodies meet"}}};
+std::array<Source, 3> sources(const Audit& a) {
+  return {{{"transfer between points and grid", -(a.transfer_loss + a.transfer_gain),
+            "another method.transfer or method.update, a viscosity block, a smaller grid.cell"},
+           {"heat of walls", -a.wall_heat,
+            "a smaller time.cfl; a look at what meets the sides of grid.box"},
+           {"heat of contact", -a.contact_heat,
+            "a smaller time.cfl or grid.cell; a look at where bodies meet"}}};
 }
 
-std::array<std::pair<const char*, double>, 10> entries(const Audit& a) {
+std::array<std::pair<const char*, double>, 11> entries(const Audit& a) {
   return {{{"kinetic energy", a.kinetic},
            {"internal energy", a.internal},
-           {"transfer", a.transfer_in + a.transfer_out},
-           {"time centring", a.time_centring},
+           {"transfer loss", a.transfer_loss},
+           {"transfer gain", a.transfer_gain},
            {"external work", a.external_work},
            {"wall work", a.wall_work},
-           {"contact work", a.contact_work},
+           {"heat of walls", a.wall_heat},
+           {"heat of contact", a.contact_heat},
            {"friction work", a.friction_work},
            {"removed energy", a.removed_energy},
            {"wall impulse", a.wall_impulse[0] + a.wall_impulse[1] + a.wall_impulse[2]}}};

@@ -35,5 +35,7 @@ Stage* make_eos(const EosRequest& request, Layout& layout);
 StagesAround make_cohesion(int eos, const double* values, const MaterialConstants& constants,
                            Layout& layout);
 Stage* make_energy_heating(const EnergyHeatingRequest& request, Layout& layout);
+Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& constants,
+                       Layout& layout);
 
 }  // namespace krater::inline KRATER_ISA

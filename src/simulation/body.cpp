@@ -10,6 +10,7 @@
 #include "krater/core/errors.hpp"
 #include "krater/geometry/seeds/thickness.hpp"
 #include "krater/materials/catalogue.hpp"
+#include "krater/points/ledger_fields.hpp"
 #include "krater/simulation/material_plan.hpp"
 
 namespace krater {
@@ -77,6 +78,9 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   }
   declare_method_columns(scene);
   add_stages(factory);
+  if (!layout_.find(field::InternalEnergy::info.name))
+    layout_.state<field::InternalEnergy>(0, kMethod);  // of the ledger
+  if (heat_floor_) layout_.state<field::CarriedEnergy>(0, kMethod);
   if (pressure_on_grid(scene)) layout_.local_output<field::DilatationCorrection>(kMethod);
   layout_.local_input<field::SignalSpeed>(kMethod);
   layout_.local_input<field::DilatationRate>(kMethod);
@@ -148,6 +152,8 @@ void Body::add_stages(const StageFactory& factory) {
       plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
+  if (plan.eos.law >= 0)
+    heat_floor_.reset(factory.heat_floor(plan.eos.law, plan.eos.values, plan.constants, layout_));
 }
 
 BodyKernelData Body::kernel_data() const {
@@ -176,6 +182,7 @@ BodyKernelData Body::kernel_data() const {
   c.pressure = state(field::Pressure::info);
   c.viscous = state(field::ViscousPressure::info);
   c.energy = state(field::InternalEnergy::info);
+  c.carried = state(field::CarriedEnergy::info);
   c.sound_speed = state(field::SoundSpeed::info);
   c.indicator = state(field::ShockIndicator::info);
   c.half_width = state(field::HalfWidth::info);
@@ -188,9 +195,11 @@ BodyKernelData Body::kernel_data() const {
   c.local_gradient = local(field::StepGradient::info);
   c.local_dilatation = local(field::ExtraDilatation::info);
   c.local_correction = local(field::DilatationCorrection::info);
+  c.local_heat = local(field::AvailableHeat::info);
   c.local_signal = local(field::SignalSpeed::info);
   c.local_rate = local(field::DilatationRate::info);
   data.stages = stage_pointers_.data();
+  data.heat_floor = heat_floor_.get();
   data.stage_count = static_cast<int>(stage_pointers_.size());
   return data;
 }

@@ -88,6 +88,7 @@ Totals Simulation::totals(int body) const {
       t.mass += m;
       t.kinetic += point_kinetic(patch, i, c, geometry_);
       if (c.energy >= 0) t.internal += m * at(c.energy, 0);
+      if (c.carried >= 0) t.internal += m * at(c.carried, 0);
       for (int a = 0; a < dim; ++a)
         t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
       // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).

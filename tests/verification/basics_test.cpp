@@ -136,7 +136,7 @@ class Rig {
     settings_.geometry = &run.sim->geometry();
     settings_.dt = 1;
     settings_.average_cells = averaging;
-    zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles), cells_.reserve(4 * kBlockNodes);
+    zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles), cells_.reserve(kCellDoubles);
     boundary_.relink(grid());
     local_.resize(grid().patches().size());
   }

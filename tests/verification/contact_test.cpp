@@ -126,7 +126,7 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
   const Audit& audit = run.sim->audit();
   MESSAGE("joint ", joint, " of 1/", cells, ": target ", velocity_of(run, 0), " m/s, striker ",
           velocity_of(run, 1), " m/s; contact work / E0 ",
-          audit.contact_work / audit.initial_kinetic, ", energy error ", audit.error_fraction());
+          audit.contact_heat / audit.initial_kinetic, ", energy error ", audit.error_fraction());
   CHECK(momentum_change(run, start) < 1e-12 * start.momentum[1]);
   CHECK(std::abs(energy_residual(run)) < 1e-12 * start.kinetic);
   return {velocity_of(run, 0), velocity_of(run, 1)};

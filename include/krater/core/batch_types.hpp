@@ -49,6 +49,10 @@ struct BatchData {
   int length_stride;
   Ledger* ledger;
   Fault* fault;
+  /// Share of the step's work that the stages book in the energy: all of it where matter stands
+  /// alone; none where a ledger has booked it (kinematics/mpm/ledger.hpp). The energy then is that of the
+  /// middle of the step, half a step behind the pressure.
+  double energy_share = 1;
 };
 
 }  // namespace krater

@@ -106,6 +106,10 @@ struct StageFactory {
   /// both null where the law has no such end. Made when the strength's own stages are.
   StagesAround (*cohesion)(int eos, const double* values, const MaterialConstants& constants,
                            Layout& layout);
+  /// Heat that may be taken (materials/stages/heat_floor_stage.hpp); null where the pressure of the
+  /// law does not know the energy.
+  Stage* (*heat_floor)(int eos, const double* values, const MaterialConstants& constants,
+                       Layout& layout);
   /// Always first: f -> sym H, rho, v, tr D, and F where it `keeps_F`.
   Stage* (*kinematics)(bool keeps_F, Layout& layout);
   Stage* (*signal_speed)(double q_lin, double q_quad,

@@ -58,6 +58,7 @@ class Body {
   const MaterialOptions* material_;
   Layout layout_;
   std::vector<NamedStage> stages_;
+  std::unique_ptr<const Stage> heat_floor_;
   std::vector<const Stage*> stage_pointers_;
   FillReport fill_;
   VolumeMoments seed_moments_;

@@ -82,6 +82,7 @@ void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, in
   removed.mass += m;
   removed.kinetic += point_kinetic(patch, i, c, geometry);
   if (c.energy >= 0) removed.internal += m * patch.points.at(c.energy, i);
+  if (c.carried >= 0) removed.internal += m * patch.points.at(c.carried, i);
   for (int a = 0; a < geometry.dimension; ++a)
     removed.momentum[static_cast<unsigned>(a)] += m * patch.points.at(c.velocity + kLanes * a, i);
 }

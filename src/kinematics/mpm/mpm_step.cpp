@@ -14,11 +14,6 @@ namespace {
 // a cell.
 constexpr double kMaxShare = 0.3;
 
-bool strains(GatherPart part) {
-  return part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
-         part != GatherPart::keep_only;
-}
-
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
     case Transfer::tflip:
@@ -30,6 +25,11 @@ double alpha_of(const MethodOptions& m, double tflip) {
       break;
   }
   return 0;
+}
+
+/// Share of the mean residual of a cell that its points keep.
+double cell_alpha_of(const MethodOptions& m) {
+  return m.transfer == Transfer::tflip || m.transfer == Transfer::flip ? 1 : 0;
 }
 
 }  // namespace
@@ -93,71 +93,75 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
 // Not where body forces act: their work on the points is known after the gather only.
 void MpmStep::watch_energy(const GridEnergy& grid, const Constraints& c) const {
   if (loaded_) return;
-  energy_watch_.check_nodes(audit_, grid.after + c.work(),
+  energy_watch_.check_nodes(audit_, grid.after + c.change(),
                             {audit_.step_external + c.contact.driven, c.walls.work});
 }
 
-void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
-  audit_.book_step(energies, {c.walls.work, c.walls.force_correction},
-                   {c.contact.work, c.contact.force_correction});
-  audit_.contact_work -= c.contact.driven;
+// k of all nodes, when v+ is final, in place of the volumes.
+void MpmStep::write_node_work() {
+  const bool moments = settings(0).moments;
+  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
+    if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks()[n], moments);
+  });
+  lap(Phase::nodes);
+  heat_ = {};
+  if (contact_.active()) heat_.contact = contact_.heat();
+  heat_.walls = boundary_.heat();
+  lap(Phase::boundary);
+}
+
+void MpmStep::book(const Constraints& c) {
+  audit_.book_step(heat_);
   audit_.external_work += c.contact.driven;
+  audit_.wall_work += c.walls.work;
   audit_.friction_work += c.contact.friction;
   audit_.contact_pairs = c.contact.nodes;
   for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
   audit_.wall_columns = c.walls.columns_in_contact;
-  // Planes that fold act on the way from the points to the grid.
-  audit_.wall_work += c.walls.fold_work;
-  audit_.transfer_in += c.walls.fold_work;
 }
 
 void MpmStep::account_folds(Constraints& c, double dt) const {
-  const BoundaryWork folds = boundary_.folded(dt, alpha_of(method_, method_.flip_fraction));
-  c.walls.fold_work = folds.fold_work;
+  const BoundaryWork folds = boundary_.folded(dt, cell_alpha_of(method_));
   for (std::size_t a = 0; a < 3; ++a) c.walls.impulse[a] += folds.impulse[a];
 }
 
 double MpmStep::step_usl(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
+  const bool xpic = method_.transfer == Transfer::xpic;
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);
   GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
+  if (xpic) note_forces();
   Constraints constraints = constrain();
   account_folds(constraints, dt);
-  if (method_.transfer == Transfer::xpic) {
+  if (!xpic) write_node_work();
+  if (xpic) {
     const std::array<double, 3> impulse = filter_velocity();
     for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
   }
   watch_energy(grid, constraints);
-  grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
-                    dt);
-  book({kinetic, internal, grid.before, grid.after}, constraints);
+  grid_to_particles(xpic ? GatherPart::filter_move : GatherPart::all, dt);
+  book(constraints);
   return dt;
 }
 
 double MpmStep::step_musl(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
   particles_to_grid(kernels_, bodies_, dt);
   GridEnergy grid = momentum(dt, 1);
   begin_rigid(dt, grid);
   Constraints constraints = constrain();
   account_folds(constraints, dt);
+  write_node_work();
   watch_energy(grid, constraints);
   grid_to_particles(GatherPart::velocity_only, dt);
 
   // The new velocities, and L of the same v+, with the old weights. L of this projection would not
   // do: next to the residual that TFLIP keeps it would feed on itself.
   particles_to_grid(kernels_, bodies_, dt);
-  const GridEnergy again = momentum(dt, 0);
-  const Constraints repeated = constrain(true);
+  momentum(dt, 0);
+  constrain(true);
   grid_to_particles(GatherPart::strain_move, dt);
-  audit_.transfer_out +=
-      grid.after + constraints.work() - again.before;  // the detour over the points
-  book({kinetic, internal, grid.before, grid.after}, constraints);
-  audit_.transfer_out += again.after - (grid.after + constraints.work()) + repeated.work();
-  audit_.wall_work += repeated.walls.work;
-  audit_.contact_work += repeated.contact.work;
+  book(constraints);
   return dt;
 }
 
@@ -166,7 +170,6 @@ double MpmStep::step_musl(double dt) {
 // the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
 // step.
 double MpmStep::step_usf(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
   const bool moved = last_step_ > 0;
   if (moved) {
     particles_to_grid(kernels_, bodies_, last_step_);
@@ -183,10 +186,10 @@ double MpmStep::step_usf(double dt) {
   begin_rigid(dt, grid);
   Constraints constraints = constrain();
   account_folds(constraints, dt);
+  write_node_work();
   watch_energy(grid, constraints);
   grid_to_particles(GatherPart::velocity_move, dt);
-  if (!moved) audit_.internal = internal;
-  book({kinetic, internal, grid.before, grid.after}, constraints);
+  book(constraints);
   return dt;
 }
 
@@ -195,6 +198,8 @@ SweepSettings MpmStep::settings(double dt) const {
   s.geometry = &grid_.geometry();
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
+  s.gamma = cell_alpha_of(method_) - std::min(cell_alpha_of(method_), s.alpha);
+  s.moments = cell_alpha_of(method_) < 1;
   s.average_cells = method_.cell_averaging;
   s.pressure_nodes = pressure_nodes_.data();
   for (int a = 0; a < grid_.geometry().dimension; ++a) {
@@ -231,7 +236,7 @@ void MpmStep::provide_memory() {
     if (!fluid_patches_.empty())
       m.pressure_halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) *
                               kNodeDoubles);
-    m.cells.reserve(2 * kBlockNodes);
+    m.cells.reserve(kCellDoubles);
     m.local.reserve(static_cast<std::size_t>(groups) * static_cast<std::size_t>(local));
     m.pressures.reserve(static_cast<std::size_t>(groups) * kLanes);
     if (m.leavers.size() < static_cast<std::size_t>(groups)) m.leavers.resize(count);
@@ -316,7 +321,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
   if (moves && rigid_.any()) rigid_.finish(grid_, dt);
-  if (!fluid_patches_.empty() && strains(part)) correct_dilatation(s);
+  if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(s);
   for_each(grid_.patches().size(), [&](std::size_t p) {
     const SweepScratch w = scratch();
     Patch& patch = grid_.patches()[p];
@@ -346,18 +351,26 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
               scattering / static_cast<double>(memory_.size()));
   throw_faults();
   if (moves && rigid_.any()) rigid_.throw_collisions(grid_);
-  if (part != GatherPart::keep_only)
-    combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
+  if (part != GatherPart::keep_only) combine_patches(part);
 }
 
-void MpmStep::combine_patches(bool forces_worked) {
+void MpmStep::combine_patches(GatherPart part) {
+  const bool forces_worked = part != GatherPart::strain_move && part != GatherPart::strain_only;
   audit_.kinetic = audit_.internal = 0;
   limit_ = {};
   for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
     const PatchResult& r = grid_.patches()[p].result;
     audit_.kinetic += r.kinetic;
     audit_.internal += r.internal;
-    if (forces_worked) audit_.step_external += r.external_work;
+    if (forces_worked) {
+      audit_.step_external += r.external_work;
+      heat_.given += r.heat_given;
+      heat_.taken += r.heat_taken;
+      if (bodies_[static_cast<std::size_t>(grid_.patches()[p].body)].heat_floor == nullptr)
+        heat_.numerical += r.heat_given + r.heat_taken;
+      heat_.carried += r.carried;
+      heat_.carriers += r.carriers;
+    }
     audit_.book_events(r.ledger);
     if (r.max_rate > limit_.rate)
       limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};

@@ -62,6 +62,7 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
   patch.tile.state = still && patch.settled ? Tile::State::asleep : Tile::State::stale;
   if (patch.tile.state == Tile::State::asleep) {
     removed_[p] = {};
+    patch.result.heat_given = patch.result.heat_taken = patch.result.carriers = 0;
     return;
   }
   const std::size_t size = patch.points.size();

@@ -162,14 +162,14 @@ void MpmStep::add_pressure_force(const SweepSettings& s) {
 // Nodes hold the final v+, ghosts too.
 void MpmStep::correct_dilatation(const SweepSettings& s) {
   sweep_fluids(PressurePart::dilatation, s);
-  sum_fluid_tiles(kNodeDilatation, kNodeDilatation + 1);
-  fold_fluids({kNodeDilatation});
+  sum_fluid_tiles(kNodeDilatation, kNodeWorkRate + 1);
+  fold_fluids({kNodeDilatation, kNodeWorkRate});
   for_fluid_nodes([&](std::size_t block, int node) {
     double* record = second_record(grid_.node_blocks()[block].nodes) + node;
     const double V = record[kNodeVolume];
-    record[kNodeDilatation] = V > 0 ? record[kNodeDilatation] / V : 0;
+    for (const int k : {kNodeDilatation, kNodeWorkRate}) record[k] = V > 0 ? record[k] / V : 0;
   });
-  mirror_fluids({kNodeDilatation});
+  mirror_fluids({kNodeDilatation, kNodeWorkRate});
 }
 
 }  // namespace krater

@@ -34,11 +34,12 @@ bool MpmStep::renew_references() {
   bool renewed = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (largest_strain(grid_, static_cast<int>(b)) <= method_.refresh_strain) continue;
-    double change = 0;
+    double heat = 0;
     const Removed r =
-        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, change);
-    audit_.kinetic += change;
-    audit_.transfer_out -= change;
+        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, heat);
+    audit_.kinetic -= heat;
+    audit_.internal += heat;
+    (heat > 0 ? audit_.transfer_loss : audit_.transfer_gain) += heat;
     audit_.book_removed(r);
     audit_.new_references += 1;
     renewed = true;

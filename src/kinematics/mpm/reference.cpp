@@ -120,14 +120,16 @@ double largest_strain(const BlockGrid& grid, int body) {
 }
 
 Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
-                        const PointColumns& columns, double& kinetic_change) {
-  kinetic_change = 0;
+                        const PointColumns& columns, double& heat) {
+  heat = 0;
   for (Patch& patch : grid.patches()) {
     if (patch.body != body) continue;
     for (int i = 0; i < patch.points.count(); ++i) {
-      kinetic_change -= point_kinetic(patch, i, columns, grid.geometry());
+      const double before = point_kinetic(patch, i, columns, grid.geometry());
       renew_point(patch.points, columns, grid.geometry().dimension, i);
-      kinetic_change += point_kinetic(patch, i, columns, grid.geometry());
+      const double lost = before - point_kinetic(patch, i, columns, grid.geometry());
+      patch.points.at(columns.energy, i) += lost / patch.points.at(columns.mass, i);
+      heat += lost;
     }
   }
   return redistribute(grid, body, boundary, columns);

@@ -12,7 +12,7 @@
 ///   tr_p = tr L + sum_j S_j (D_j - T_j)/V_j,
 ///   D_j = sum_c int_c phi N_j div(v) dV,   T_j = sum_p S_j V tr L.
 /// The second line is the adjoint of the first, so that force and strain exchange exactly what one
-/// of them gives: energy as good as before. A uniform pressure gives no force inside; a closed box
+/// of them gives: the work is V (p + q) tr_p, with the mean velocity of the step. A uniform pressure gives no force inside; a closed box
 /// keeps sum V to round-off, for sum V tr_p = sum D_j = int div(v). N: quadratic B-splines,
 /// whatever S is; int over dual cells, where they are polynomials, by 2 Gauss points per axis
 /// (exact for a uniform pressure, about the axis too). phi: share of the fluid in what fills a
@@ -293,36 +293,54 @@ void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(halo, lw, sums);
-    Pack trace = sums.G[0][0];
-    for (int a = 1; a < D; ++a) trace += sums.G[a][a];
-    if constexpr (Frame::hoop) trace += sums.V[0] / sweep.column(sweep.c.position)(g, 0);
+    Pack trace = sums.G[0][0], change = sums.G[0][4];
+    for (int a = 1; a < D; ++a) {
+      trace += sums.G[a][a];
+      change += sums.G[a][4 + a];
+    }
+    if constexpr (Frame::hoop) {
+      const Pack r = sweep.column(sweep.c.position)(g, 0);
+      trace += sums.V[0] / r;
+      change += sums.V[4] / r;
+    }
     const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
     clear(channels.A);
     for (int a = 0; a < D; ++a) clear(channels.B[a]);
-    channels.A[kNodeDilatation] = -(sweep.cell_weight(g) * V * trace);
+    const Pack part = sweep.cell_weight(g) * V;
+    channels.A[kNodeDilatation] = -(part * trace);
+    channels.A[kNodeWorkRate] = -(part * fnma(Pack(0.5), change, trace));
     sweep.scatter(lw, channels);
   }
   sweep.for_cells([&](const CellPlace<D>& place, double part) {
-    for_gauss_points<Frame>(
-        *sweep.s.geometry, sweep.origin, place,
-        [&](double weight, double r, const double* N, const auto& grad) {
-          double div = 0, share = 0;
-          for (int n = 0; n < power_of_three<D>; ++n) {
-            const int at = kNodeDoubles * (place.tile + node_offset<D>(n));
-            for (int a = 0; a < D; ++a) div += grad[a][n] * halo[at + a];
-            if constexpr (Frame::hoop) div += N[n] * halo[at] / r;
-            share += N[n] * shares[at + kNodeShare];
-          }
-          const double flux = part * weight * share * div;
-          for (int n = 0; n < power_of_three<D>; ++n)
-            sweep.tile[kNodeDoubles * (place.tile + node_offset<D>(n)) + kNodeDilatation] +=
-                N[n] * flux;
-        });
+    for_gauss_points<Frame>(*sweep.s.geometry, sweep.origin, place,
+                            [&](double weight, double r, const double* N, const auto& grad) {
+                              double div = 0, change = 0, share = 0;
+                              for (int n = 0; n < power_of_three<D>; ++n) {
+                                const int at = kNodeDoubles * (place.tile + node_offset<D>(n));
+                                for (int a = 0; a < D; ++a) {
+                                  div += grad[a][n] * halo[at + a];
+                                  change += grad[a][n] * halo[at + 4 + a];
+                                }
+                                if constexpr (Frame::hoop) {
+                                  div += N[n] * halo[at] / r;
+                                  change += N[n] * halo[at + 4] / r;
+                                }
+                                share += N[n] * shares[at + kNodeShare];
+                              }
+                              const double flux = part * weight * share;
+                              for (int n = 0; n < power_of_three<D>; ++n) {
+                                double* node =
+                                    sweep.tile + kNodeDoubles * (place.tile + node_offset<D>(n));
+                                node[kNodeDilatation] += N[n] * flux * div;
+                                node[kNodeWorkRate] += N[n] * flux * (div - 0.5 * change);
+                              }
+                            });
   });
 }
 
-/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record.
-template <class Frame, class Shape>
+/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record. `works`: the same of
+/// the mean velocity, times the pressure, is part of the work that the points' energy receives.
+template <bool works, class Frame, class Shape>
 void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   constexpr int D = Frame::dim;
   const WriteView out{sweep.w.local + sweep.c.local_correction, sweep.c.local_stride};
@@ -332,6 +350,12 @@ void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
     sweep.weights(g, lw);
     gather_group<D>(sweep.w.pressure_halo, lw, sums);
     out.set(g, sums.V[kNodeDilatation]);
+    if constexpr (works) {
+      const Pack P = sweep.column(sweep.c.pressure)(g) + sweep.column(sweep.c.viscous)(g),
+                 v = 1.0 / sweep.column(sweep.c.density)(g);
+      const WriteView e{sweep.patch.points.data() + sweep.c.energy, sweep.c.stride};
+      e.set(g, fnma(sweep.s.dt * v * P, sums.V[kNodeWorkRate], e(g)));
+    }
   }
 }
 

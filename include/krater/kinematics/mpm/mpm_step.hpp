@@ -84,14 +84,15 @@ class MpmStep {
   struct Constraints {
     BoundaryWork walls;
     ContactWork contact;
-    double work() const { return walls.work + contact.work; }
+    double change() const { return walls.change + contact.change; }
   };
   /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
   Constraints constrain(bool projection = false);
   void begin_rigid(double dt, GridEnergy& energy);
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
-  void book(const Audit::StepEnergies& energies, const Constraints& constraints);
+  void write_node_work();
+  void book(const Constraints& constraints);
   void halve_until_safe(double& dt, double max_change);
   void watch_energy(const GridEnergy& grid, const Constraints& c) const;
   void name_limit(Patch& patch) const;
@@ -102,6 +103,8 @@ class MpmStep {
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
   std::array<double, 3> filter_velocity();
+  void note_forces();
+  void write_filtered_work();
   void relink_fluids();
   double* second_record(double* node);
   void sweep_fluids(PressurePart part, const SweepSettings& s);
@@ -114,7 +117,7 @@ class MpmStep {
   void add_pressure_force(const SweepSettings& s);
   void correct_dilatation(const SweepSettings& s);
   void grid_to_particles(GatherPart part, double dt);
-  void combine_patches(bool forces_worked);
+  void combine_patches(GatherPart part);
   void provide_memory();
   void throw_faults() const;
   void migrate();
@@ -142,7 +145,8 @@ class MpmStep {
 
   Audit audit_;
   EnergyWatch energy_watch_;
-  bool loaded_;  ///< body forces act
+  bool loaded_;           ///< body forces act
+  Audit::StepHeat heat_;  ///< of the step under way
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;
   std::vector<std::size_t> boundary_blocks_;

@@ -93,4 +93,21 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& 
   block.sums = {0.5 * sum(before), 0.5 * sum(after), hmax(sqrt(change))};
 }
 
+/// k = (v- + dv/2) . dv in place of the volume, from the final v+ (kinematics/mpm/ledger.hpp).
+KRATER_FORCE_INLINE void work_of_block(NodeBlock& block, bool moments) {
+  for (int first = 0; first < kBlockNodes; first += kLanes) {
+    double* record = block.nodes + kNodeDoubles * first;
+    Pack n[8];
+    for (int i = 0; i < 8; ++i) n[i] = load(record + 8 * i);
+    transpose8(n);
+    Pack k = 0.0;
+    for (int a = 0; a < 3; ++a) k = fma(fnma(Pack(0.5), n[4 + a], n[a]), n[4 + a], k);
+    if (moments)
+      for (int a = 0; a < 3; ++a) k = fma(n[a] - n[4 + a], n[a] - n[4 + a], k);
+    alignas(64) double out[8];
+    store(out, k);
+    for (int i = 0; i < 8; ++i) record[8 * i + kNodeWork] = out[i];
+  }
+}
+
 }  // namespace krater::inline KRATER_ISA

@@ -80,11 +80,12 @@ class CoupledStage final : public Stage {
   KRATER_FORCE_INLINE void close(const BatchData& batch, int g, const auto& update, Pack dv,
                                  Pack work) const {
     const auto p = view(batch, p_), e = view(batch, e_);
-    const EnergyStep<Pack> step =
-        limited(close_energy(update.pressure, p(g), e(g), dv, work), update.least, dv);
+    const Pack share = batch.energy_share, ahead = 0.5 + 0.5 * batch.energy_share;
+    const EnergyStep<Pack> step = limited(
+        close_energy(update.pressure, share * p(g), e(g), dv, ahead * work), update.least, dv);
     report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
     p.set(g, step.pressure);
-    e.set(g, step.energy);
+    e.set(g, select(share > Pack(0.0), step.energy, e(g)));
   }
 
   KRATER_FORCE_INLINE void flow(const BatchData& batch, int g, const auto& update, Pack v) const {

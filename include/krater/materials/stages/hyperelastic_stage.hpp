@@ -38,13 +38,14 @@ class HyperelasticStage final : public Stage {
     const auto e_p = view(batch, e_);
     const auto c_p = view(batch, c_);
     const auto G_p = view(batch, shear_);
+    const Mask alone = Pack(batch.energy_share) > Pack(0.0);  // else the ledger keeps e
     for (int g = 0; g < batch.groups; ++g) {
       const Mat3<Pack> F = load_mat3(F_p, g);
       const Pack averaged = law_.rho0 / (rho_p(g) * det(F));
       const auto response = law_(exp(1.0 / 3.0 * log(averaged)) * F);
       store_sym3(view(batch, s_), g, response.s);
       p_p.set(g, response.pressure);
-      e_p.set(g, response.energy);
+      e_p.set(g, select(alone, response.energy, e_p(g)));
       const Pack c_squared = response.modulus / rho_p(g);
       const Pack floor = Pack(0.01 * c0_squared_);
       const Mask floored = c_squared < floor;
