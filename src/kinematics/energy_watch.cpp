@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,20 +25,6 @@ std::array<Source, 3> sources(const Audit& a) {
             "a smaller time.cfl; a look at what meets the sides of grid.box"},
            {"heat of contact", -a.contact_heat,
             "a smaller time.cfl or grid.cell; a look at where bodies meet"}}};
-}
-
-std::array<std::pair<const char*, double>, 11> entries(const Audit& a) {
-  return {{{"kinetic energy", a.kinetic},
-           {"internal energy", a.internal},
-           {"transfer loss", a.transfer_loss},
-           {"transfer gain", a.transfer_gain},
-           {"external work", a.external_work},
-           {"wall work", a.wall_work},
-           {"heat of walls", a.wall_heat},
-           {"heat of contact", a.contact_heat},
-           {"friction work", a.friction_work},
-           {"removed energy", a.removed_energy},
-           {"wall impulse", a.wall_impulse[0] + a.wall_impulse[1] + a.wall_impulse[2]}}};
 }
 
 Source largest(const Audit& audit) {
@@ -66,9 +51,10 @@ void EnergyWatch::check_nodes(const Audit& audit, double kinetic, const StepWork
 }
 
 void EnergyWatch::check(Audit& audit) const {
-  for (const auto& [name, value] : entries(audit))
+  for_each_entry(audit, [](const char* name, double value) {
     if (!std::isfinite(value))
       throw EnergyError(fmt::format("{} is {}: the account of the energy is broken", name, value));
+  });
   const double in = came_in(audit), now = audit.energy();
   audit.peak_energy = std::max(audit.peak_energy, in);
   const double most = kMostGain * audit.peak_energy;

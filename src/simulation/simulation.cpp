@@ -96,15 +96,15 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     std::iota(fields.begin(), fields.end(), 0);
     grid_.set_fields(std::move(fields));
   }
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, contact_, rigid_, *kernels_,
-                                    *plain_kernels_, kernel_data_);
+  step_ = std::make_unique<MpmStep>(
+      scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
+                                   kernel_data_, audit_});
   place_rigid_bodies();
   choose_first_step();
   const Totals start = totals();
-  Audit& audit = step_->audit();
-  audit.kinetic = audit.initial_kinetic = start.kinetic;
-  audit.internal = audit.initial_internal = start.internal;
-  audit.peak_energy = audit.energy();
+  audit_.kinetic = audit_.initial_kinetic = start.kinetic;
+  audit_.internal = audit_.initial_internal = start.internal;
+  audit_.peak_energy = audit_.energy();
 }
 
 void Simulation::place_rigid_bodies() {
@@ -226,7 +226,8 @@ void Simulation::step(double until) {
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;
   try {
-    taken = step_->advance(asked);
+    Kinematics* const all[] = {step_.get()};
+    taken = take_step(all, asked);
   } catch (const StepFault& fault) {
     broken_ = true;
     const std::string text = describe_fault(fault);
@@ -239,12 +240,12 @@ void Simulation::step(double until) {
     deliver(grid_, kernel_data_);
     throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time(), steps()));
   }
-  if (walls_act_on_points()) step_->audit().book_point_walls(wall_force, taken, !scene_.body_force);
+  if (walls_act_on_points()) audit_.book_point_walls(wall_force, taken, !scene_.body_force);
   clock_.advance(asked, taken, until);
   limit_ = step_->limit();
   watch(*this, warnings_);
   try {
-    energy_watch_.check(step_->audit());
+    energy_watch_.check(audit_);
   } catch (const EnergyError& e) {
     fail_energy(e);
   }

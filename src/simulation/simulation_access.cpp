@@ -45,17 +45,14 @@ double Simulation::bytes_per_point() const {
 }
 
 void Simulation::set_value(int s, int point, int slot, double x) {
-  Patch& p = grid_.patches()[static_cast<std::size_t>(s)];
-  p.points.at(kLanes * slot, point) = x;
-  p.touch();
+  step_->change(s).at(kLanes * slot, point) = x;
 }
 
 void Simulation::book_change() {
-  Audit& audit = step_->audit();
   const Totals now = totals();
-  audit.external_work += now.kinetic + now.internal - (audit.kinetic + audit.internal);
-  audit.kinetic = now.kinetic;
-  audit.internal = now.internal;
+  audit_.external_work += now.kinetic + now.internal - (audit_.kinetic + audit_.internal);
+  audit_.kinetic = now.kinetic;
+  audit_.internal = now.internal;
 }
 
 std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {

@@ -41,6 +41,16 @@ std::string columns_text(const Body& body) {
   return text;
 }
 
+/// The entries of the account: "kinetic, internal, ...".
+std::string audit_text() {
+  std::string text;
+  const Audit audit;
+  for_each_entry(audit, [&text](const char* name, double) {
+    text += (text.empty() ? "" : ", ") + std::string{name};
+  });
+  return text;
+}
+
 const CheckpointBlob& demand(const Checkpoint& checkpoint, const std::string& name) {
   if (const CheckpointBlob* blob = checkpoint.find(name)) return *blob;
   throw InputError("checkpoint has no '" + name +
@@ -81,10 +91,10 @@ Checkpoint Simulation::save() const {
                                         1.0 * limit_.body, limit_.id}));
   out.blobs.push_back(integers("counters", {steps(), limit_.kind}));
   out.blobs.push_back(numbers("grid", grid_identity(scene_.frame, geometry_)));
-  static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
-  const auto* audit = reinterpret_cast<const double*>(&step_->audit());
-  out.blobs.push_back(
-      numbers("audit", std::vector<double>(audit, audit + sizeof(Audit) / sizeof(double))));
+  std::vector<double> entries;
+  for_each_entry(audit_, [&](const char*, double value) { entries.push_back(value); });
+  out.blobs.push_back(numbers("audit/entries", std::move(entries)));
+  out.blobs.push_back({"audit/names", {}, {}, {}, audit_text()});
   warnings_.save(out);
   for (std::size_t b = 0; b < bodies_.size(); ++b) save_body(static_cast<int>(b), out);
   return out;
@@ -133,10 +143,11 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   boundary_.set_time(time());
   step_->set_last_step(dt());
   limit_.kind = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
-  const auto& audit = demand(checkpoint, "audit").doubles;
-  if (audit.size() != sizeof(Audit) / sizeof(double))
+  const auto& entries = demand(checkpoint, "audit/entries").doubles;
+  if (demand(checkpoint, "audit/names").text != audit_text() || entries.size() != audit_entries())
     throw InputError("checkpoint was written by another version of krater");
-  std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
+  std::size_t entry = 0;
+  for_each_entry(audit_, [&](const char*, double& value) { value = entries[entry++]; });
   warnings_.restore(checkpoint);
   grid_.drop_patches();
   for (std::size_t b = 0; b < bodies_.size(); ++b) restore_body(static_cast<int>(b), checkpoint);

@@ -90,4 +90,61 @@ struct Audit {
   }
 };
 
+/// visit(name, entry) of all entries in the order of their memory: what a checkpoint keeps, and what
+/// must be a number.
+template <class Account, class Visit>
+constexpr void for_each_entry(Account& a, const Visit& visit) {
+  visit("kinetic", a.kinetic);
+  visit("internal", a.internal);
+  visit("initial_kinetic", a.initial_kinetic);
+  visit("initial_internal", a.initial_internal);
+  visit("transfer_loss", a.transfer_loss);
+  visit("transfer_gain", a.transfer_gain);
+  visit("numerical_heat", a.numerical_heat);
+  visit("carried", a.carried);
+  visit("largest_carried", a.largest_carried);
+  visit("carriers", a.carriers);
+  visit("contact_heat", a.contact_heat);
+  visit("friction_work", a.friction_work);
+  visit("wall_heat", a.wall_heat);
+  visit("external_work", a.external_work);
+  visit("wall_work", a.wall_work);
+  visit("removed_energy", a.removed_energy);
+  visit("removed_mass", a.removed_mass);
+  visit("removed_points", a.removed_points);
+  visit("removed_failed", a.removed_failed);
+  visit("removed_momentum_0", a.removed_momentum[0]);
+  visit("removed_momentum_1", a.removed_momentum[1]);
+  visit("removed_momentum_2", a.removed_momentum[2]);
+  visit("wall_impulse_0", a.wall_impulse[0]);
+  visit("wall_impulse_1", a.wall_impulse[1]);
+  visit("wall_impulse_2", a.wall_impulse[2]);
+  visit("plastic_work", a.plastic_work);
+  visit("viscous_work", a.viscous_work);
+  visit("plastic_heating", a.plastic_heating);
+  visit("sound_speed_floors", a.sound_speed_floors);
+  visit("hugoniot_poles", a.hugoniot_poles);
+  visit("reflections", a.reflections);
+  visit("retries", a.retries);
+  visit("penetrations", a.penetrations);
+  visit("deepest_reflection", a.deepest_reflection);
+  visit("failures", a.failures);
+  visit("snap_backs", a.snap_backs);
+  visit("spalls", a.spalls);
+  visit("new_references", a.new_references);
+  visit("contact_pairs", a.contact_pairs);
+  visit("wall_columns", a.wall_columns);
+  visit("step_external", a.step_external);
+  visit("peak_energy", a.peak_energy);
+}
+
+/// None is forgotten.
+constexpr std::size_t audit_entries() {
+  std::size_t n = 0;
+  Audit audit;
+  for_each_entry(audit, [&n](const char*, double&) { ++n; });
+  return n;
+}
+static_assert(sizeof(Audit) == audit_entries() * sizeof(double));
+
 }  // namespace krater

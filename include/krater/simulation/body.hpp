@@ -49,8 +49,6 @@ class Body {
   int slot(const FieldInfo& field, int component = 0) const;
 
  private:
-  void declare_method_columns(const Scene& scene);
-  void declare_rigid_columns(const Scene& scene);
   void examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds);
   void add_stages(const StageFactory& factory);
 

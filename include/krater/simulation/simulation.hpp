@@ -66,18 +66,15 @@ class Simulation {
   BlockGrid& grid() { return grid_; }
   const RigidBodies& rigid() const { return rigid_; }
   const MpmStep& stepper() const { return *step_; }
-  const Audit& audit() const { return step_->audit(); }
+  const Audit& audit() const { return audit_; }
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
   Totals totals(int body = -1) const;  ///< of one body, or of all
 
   /// All points, in sets of one body; the order is part of the state.
-  int set_count() const { return static_cast<int>(grid_.patches().size()); }
-  PointSet set(int s) const {
-    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
-    return {patch.body, &patch.points};
-  }
+  int set_count() const { return step_->set_count(); }
+  PointSet set(int s) const { return step_->set(s); }
   /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
   /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
@@ -117,6 +114,7 @@ class Simulation {
   RigidBodies rigid_;
   EnergyWatch energy_watch_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
+  Audit audit_;
   std::unique_ptr<MpmStep> step_;
   StepClock clock_;
   TimeStepLimit limit_;  ///< of the next step

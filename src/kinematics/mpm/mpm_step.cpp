@@ -34,22 +34,21 @@ double cell_alpha_of(const MethodOptions& m) {
 
 }  // namespace
 
-MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
-                 ContactSet& contact, RigidBodies& rigid, const Kernels& kernels,
-                 const Kernels& plain, const std::vector<BodyKernelData>& bodies)
+MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
     : method_{method},
-      grid_{grid},
-      boundary_{boundary},
-      contact_{contact},
-      rigid_{rigid},
-      kernels_{kernels},
-      plain_{plain},
-      bodies_{bodies},
-      columns_{columns_of(bodies)},
-      velocity_from_kept_{bodies},
-      position_as_velocity_{bodies},
-      energy_watch_{boundary},
-      loaded_{std::any_of(bodies.begin(), bodies.end(), [](const BodyKernelData& b) {
+      grid_{parts.grid},
+      boundary_{parts.boundary},
+      contact_{parts.contact},
+      rigid_{parts.rigid},
+      kernels_{parts.kernels},
+      plain_{parts.plain},
+      bodies_{parts.bodies},
+      columns_{columns_of(parts.bodies)},
+      velocity_from_kept_{parts.bodies},
+      position_as_velocity_{parts.bodies},
+      audit_{parts.audit},
+      energy_watch_{parts.boundary},
+      loaded_{std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
         return b.columns.body_acceleration >= 0;
       })} {
   for (BodyKernelData& body : velocity_from_kept_)
@@ -59,25 +58,85 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
     body.columns.affine = body.columns.map;
   }
   zeros_.reserve(9 * kLanes);
-  node_settings_.cell_volume = std::pow(grid.geometry().h, grid.geometry().dimension);
+  node_settings_.cell_volume = std::pow(grid_.geometry().h, grid_.geometry().dimension);
 }
 
-double MpmStep::advance(double dt) {
+PointSet MpmStep::set(int s) const {
+  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+  return {patch.body, &patch.points};
+}
+
+PointStore& MpmStep::change(int s) {
+  Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+  patch.touch();
+  return patch.points;
+}
+
+double MpmStep::force(double dt) {
   watch_.start();
+  if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
+  if (method_.reference != Reference::current) measure_gaps();
+  particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
+  grid_energy_ = momentum(dt, 1);            // v- = p/m, v+ = v- + dt f/m
+  begin_rigid(dt, grid_energy_);
+  return dt;
+}
+
+void MpmStep::meet(double dt) {
+  if (method_.transfer == Transfer::xpic) note_forces();
+  constraints_ = constrain();
+  account_folds(dt);
+  if (method_.transfer == Transfer::xpic) {
+    const std::array<double, 3> impulse = filter_velocity();
+    for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += impulse[a];
+  } else {
+    write_node_work();
+  }
+  watch_energy();
+}
+
+void MpmStep::move(double dt) {
   switch (method_.update) {
     case Update::usl:
-      dt = step_usl(dt);
+      grid_to_particles(
+          method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all, dt);
       break;
     case Update::musl:
-      dt = step_musl(dt);
+      grid_to_particles(GatherPart::velocity_only, dt);
+      project_again(dt);
+      grid_to_particles(GatherPart::strain_move, dt);
       break;
     case Update::usf:
-      dt = step_usf(dt);
+      grid_to_particles(GatherPart::velocity_move, dt);
       break;
   }
   last_step_ = dt;
+  book();
   migrate();
-  return dt;
+}
+
+// The new velocities, and L of the same v+, with the old weights. L of this projection would not
+// do: next to the residual that TFLIP keeps it would feed on itself.
+void MpmStep::project_again(double dt) {
+  particles_to_grid(kernels_, bodies_, dt);
+  momentum(dt, 0);
+  constrain(true);
+}
+
+// Stress first: the strain of the motion that the last step made, seen where it ended,
+// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
+// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
+// step.
+void MpmStep::strain_last_motion() {
+  double dt = last_step_;
+  last_step_ = 0;  // once, however often force() is asked
+  particles_to_grid(kernels_, bodies_, dt);
+  GridEnergy grid = momentum(dt, 0);
+  begin_rigid(dt, grid);
+  constrain(true);
+  grid_to_particles(GatherPart::strain_only, dt);
+  audit_.step_external = 0;
+  rigid_.rewind();
 }
 
 MpmStep::Constraints MpmStep::constrain(bool projection) {
@@ -91,9 +150,10 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
 }
 
 // Not where body forces act: their work on the points is known after the gather only.
-void MpmStep::watch_energy(const GridEnergy& grid, const Constraints& c) const {
+void MpmStep::watch_energy() const {
+  const Constraints& c = constraints_;
   if (loaded_) return;
-  energy_watch_.check_nodes(audit_, grid.after + c.change(),
+  energy_watch_.check_nodes(audit_, grid_energy_.after + c.change(),
                             {audit_.step_external + c.contact.driven, c.walls.work});
 }
 
@@ -110,7 +170,8 @@ void MpmStep::write_node_work() {
   lap(Phase::boundary);
 }
 
-void MpmStep::book(const Constraints& c) {
+void MpmStep::book() {
+  const Constraints& c = constraints_;
   audit_.book_step(heat_);
   audit_.external_work += c.contact.driven;
   audit_.wall_work += c.walls.work;
@@ -120,77 +181,9 @@ void MpmStep::book(const Constraints& c) {
   audit_.wall_columns = c.walls.columns_in_contact;
 }
 
-void MpmStep::account_folds(Constraints& c, double dt) const {
+void MpmStep::account_folds(double dt) {
   const BoundaryWork folds = boundary_.folded(dt, cell_alpha_of(method_));
-  for (std::size_t a = 0; a < 3; ++a) c.walls.impulse[a] += folds.impulse[a];
-}
-
-double MpmStep::step_usl(double dt) {
-  const bool xpic = method_.transfer == Transfer::xpic;
-  if (method_.reference != Reference::current) measure_gaps();
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  if (xpic) note_forces();
-  Constraints constraints = constrain();
-  account_folds(constraints, dt);
-  if (!xpic) write_node_work();
-  if (xpic) {
-    const std::array<double, 3> impulse = filter_velocity();
-    for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
-  }
-  watch_energy(grid, constraints);
-  grid_to_particles(xpic ? GatherPart::filter_move : GatherPart::all, dt);
-  book(constraints);
-  return dt;
-}
-
-double MpmStep::step_musl(double dt) {
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  Constraints constraints = constrain();
-  account_folds(constraints, dt);
-  write_node_work();
-  watch_energy(grid, constraints);
-  grid_to_particles(GatherPart::velocity_only, dt);
-
-  // The new velocities, and L of the same v+, with the old weights. L of this projection would not
-  // do: next to the residual that TFLIP keeps it would feed on itself.
-  particles_to_grid(kernels_, bodies_, dt);
-  momentum(dt, 0);
-  constrain(true);
-  grid_to_particles(GatherPart::strain_move, dt);
-  book(constraints);
-  return dt;
-}
-
-// Stress first: the strain of the motion that the last step made, seen where it ended,
-// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
-// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
-// step.
-double MpmStep::step_usf(double dt) {
-  const bool moved = last_step_ > 0;
-  if (moved) {
-    particles_to_grid(kernels_, bodies_, last_step_);
-    double unused = last_step_;
-    GridEnergy grid = momentum(unused, 0);
-    begin_rigid(last_step_, grid);
-    constrain(true);
-    grid_to_particles(GatherPart::strain_only, last_step_);
-    audit_.step_external = 0;
-    rigid_.rewind();
-  }
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  Constraints constraints = constrain();
-  account_folds(constraints, dt);
-  write_node_work();
-  watch_energy(grid, constraints);
-  grid_to_particles(GatherPart::velocity_move, dt);
-  book(constraints);
-  return dt;
+  for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += folds.impulse[a];
 }
 
 SweepSettings MpmStep::settings(double dt) const {

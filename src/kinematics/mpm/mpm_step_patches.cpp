@@ -43,7 +43,7 @@ bool MpmStep::asleep(const NodeBlock& block) const {
 }
 
 // Points may leave the patch or change places in it. Their ids lie at the head of every record
-// (simulation/body.cpp declares them first).
+// (mpm/columns.cpp declares them first).
 void MpmStep::name_limit(Patch& patch) const {
   if (!(patch.result.max_rate > 0)) return;
   patch.result.limiting_point = static_cast<int>(patch.points.at(0, patch.result.limiting_point));
