@@ -8,6 +8,7 @@
 #include <random>
 #include <sstream>
 
+#include "krater/points/ledger_fields.hpp"
 #include "verification/run_support.hpp"
 
 namespace {
@@ -149,6 +150,28 @@ TEST_SUITE("verification/ledger") {
                            {"method.grid_pressure=all", "method.update=musl"}, 2) < 2e-13);
       CHECK(residual_after({.frame = frame, .more = ""},
                            {"method.grid_pressure=all", "method.update=usf"}, 2) < 2e-13);
+    }
+  }
+
+  TEST_CASE("heat that cold matter cannot give is carried, and counted") {
+    const Overrides gas{
+        "materials.m={density: 1000, eos: {ideal_gas: {gamma: 1.4, initial_pressure: 1e5}}}",
+        "method.grid_pressure=none"};
+    for (const std::string frame : {"plane_strain", "3d"}) {
+      CAPTURE(frame);
+      Run run = start_text(blocks({.frame = frame, .more = ""}), gas);
+      shake(run, 2);
+      const double start = run.sim->totals().kinetic;
+      run_steps(run, 1);
+      CHECK(run.sim->audit().carried < 0);
+      double owed = 0;
+      for (int b = 0; b < 2; ++b) {
+        const std::vector<double> m = column(run, field::Mass::info, 0, b),
+                                  c = column(run, field::CarriedEnergy::info, 0, b);
+        for (std::size_t i = 0; i < m.size(); ++i) owed += m[i] * c[i];
+      }
+      CHECK(owed == doctest::Approx(run.sim->audit().carried).epsilon(1e-12));
+      CHECK(std::abs(energy_residual(run)) < 2e-13 * start);
     }
   }
 
