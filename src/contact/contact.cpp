@@ -275,8 +275,8 @@ void ContactSet::exchange_node(BlockGrid& grid, Group& group, std::size_t first,
     group.heat.add(b.node, b.node[kMass], change);
     any = true;
   }
-  any = any || (!group.rigid_pushes.empty() &&
-                group.rigid_pushes.back().loss == group.heat.count());
+  any =
+      any || (!group.rigid_pushes.empty() && group.rigid_pushes.back().loss == group.heat.count());
   if (any) group.heat.close();
 }
 

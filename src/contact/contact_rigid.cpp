@@ -160,8 +160,8 @@ void ContactSet::hand_over(RigidBodies& rigid, ContactWork& sum) {
     for (Group& group : groups_)
       for (const RigidPush& push : group.rigid_pushes)
         if (push.body == body.options().body)
-          group.heat.add_work(
-              push.loss, 0.5 * push.impulse.dot(before.at(push.place) + after.at(push.place)));
+          group.heat.add_work(push.loss,
+                              0.5 * push.impulse.dot(before.at(push.place) + after.at(push.place)));
   }
 }
 

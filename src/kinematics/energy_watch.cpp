@@ -20,13 +20,12 @@ struct Source {
 };
 
 std::array<Source, 3> sources(const Audit& a) {
-  return {
-      {{"transfer between points and grid", -(a.transfer_loss + a.transfer_gain),
-        "another method.transfer or method.update, a viscosity block, a smaller grid.cell"},
-       {"heat of walls", -a.wall_heat,
-        "a smaller time.cfl; a look at what meets the sides of grid.box"},
-       {"heat of contact", -a.contact_heat,
-        "a smaller time.cfl or grid.cell; a look at where bodies meet"}}};
+  return {{{"transfer between points and grid", -(a.transfer_loss + a.transfer_gain),
+            "another method.transfer or method.update, a viscosity block, a smaller grid.cell"},
+           {"heat of walls", -a.wall_heat,
+            "a smaller time.cfl; a look at what meets the sides of grid.box"},
+           {"heat of contact", -a.contact_heat,
+            "a smaller time.cfl or grid.cell; a look at where bodies meet"}}};
 }
 
 std::array<std::pair<const char*, double>, 11> entries(const Audit& a) {

@@ -152,8 +152,7 @@ void Body::add_stages(const StageFactory& factory) {
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
   if (plan.eos.law >= 0)
-    heat_floor_.reset(
-        factory.heat_floor(plan.eos.law, plan.eos.values, plan.constants, layout_));
+    heat_floor_.reset(factory.heat_floor(plan.eos.law, plan.eos.values, plan.constants, layout_));
 }
 
 BodyKernelData Body::kernel_data() const {

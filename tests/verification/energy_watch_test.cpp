@@ -67,7 +67,8 @@ TEST_SUITE("verification") {
     audit.external_work = 80;  // it was work from outside
     CHECK_NOTHROW(watch.check(audit));
     audit.contact_heat = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("heat of contact is nan"), EnergyError);
+    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("heat of contact is nan"),
+                         EnergyError);
     audit.contact_heat = 0, audit.wall_impulse[1] = std::numeric_limits<double>::infinity();
     CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("wall impulse"), EnergyError);
     audit.wall_impulse = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy ledger (kinematics/mpm/ledger.hpp): in one step of any state whatever, kinetic and internal
-// energy change by the work from outside, to round-off, and an observer who moves sees the same
-// heat.
+// The energy ledger (kinematics/mpm/ledger.hpp): in one step of any state whatever, kinetic and
+// internal energy change by the work from outside, to round-off, and an observer who moves sees the
+// same heat.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -117,8 +117,8 @@ TEST_SUITE("verification/ledger") {
               if (transfer == "flip" && update == "usl" && shape == "gimp") continue;
               CAPTURE(frame + " " + transfer + " " + update + " " + shape);
               CAPTURE(contact);
-              const Case c{.frame = frame, .more = "", .bodies = contact ? 3 : 2,
-                           .contact = contact};
+              const Case c{
+                  .frame = frame, .more = "", .bodies = contact ? 3 : 2, .contact = contact};
               // Domains of gimp that end at a node give it next to no mass; it gets no force.
               const double most = shape == "gimp" ? 1e-11 : 2e-13;
               CHECK(residual_after(c,
@@ -132,15 +132,14 @@ TEST_SUITE("verification/ledger") {
     for (const std::string frame : {"plane_strain", "axisymmetric", "3d"}) {
       CAPTURE(frame);
       const bool space = frame == "3d";
-      for (const std::string side :
-           {"sticky", "open", "{wall: {friction: 0.4}}", "symmetry"}) {
+      for (const std::string side : {"sticky", "open", "{wall: {friction: 0.4}}", "symmetry"}) {
         CAPTURE(side);
         CHECK(residual_after({.frame = frame, .more = "", .low = side, .high = side}, {}, 2) <
               2e-13);
       }
       CHECK(residual_after({.frame = frame, .more = ""},
-                           {space ? "body_force=[10 + x, 5, -3]" : "body_force=[10, 5]"}, 2) <
-            2e-13);
+                           {space ? "body_force=[10 + x, 5, -3]" : "body_force=[10, 5]"},
+                           2) < 2e-13);
       CHECK(residual_after({.frame = frame, .more = "", .low = "open", .high = "open"},
                            {"method.reference=initial"}, 3) < 2e-13);
       CHECK(residual_after({.frame = frame, .more = ""}, {"method.cell_averaging=false"}, 2) <
@@ -179,7 +178,11 @@ TEST_SUITE("verification/ledger") {
     for (const std::string frame : {"plane_strain", "3d"})
       for (const std::string transfer : {"tflip", "flip", "apic"}) {
         CAPTURE(frame + " " + transfer);
-        const Case c{.frame = frame, .more = "", .bodies = 2, .contact = true, .low = "open",
+        const Case c{.frame = frame,
+                     .more = "",
+                     .bodies = 2,
+                     .contact = true,
+                     .low = "open",
                      .high = "open"};
         std::vector<double> e[2];
         for (const int moving : {0, 1}) {

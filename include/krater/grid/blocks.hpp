@@ -64,15 +64,15 @@ struct Outbox {
 
 /// What one sweep over a patch leaves behind; combined over patches in patch order.
 struct PatchResult {
-  double max_rate = 0;       ///< max (|v| + signal speed)/h, or |tr D|/0.1 [1/s]
-  int limiter = 0;           ///< 0 wave, 1 flow, 2 dilatation
-  int limiting_point = 0;    ///< index in the patch; after the gather the point's id
-  double kinetic = 0;        ///< [J], affine part included
-  double internal = 0;       ///< [J]
-  double external_work = 0;  ///< [J] of body forces in the step
+  double max_rate = 0;                    ///< max (|v| + signal speed)/h, or |tr D|/0.1 [1/s]
+  int limiter = 0;                        ///< 0 wave, 1 flow, 2 dilatation
+  int limiting_point = 0;                 ///< index in the patch; after the gather the point's id
+  double kinetic = 0;                     ///< [J], affine part included
+  double internal = 0;                    ///< [J]
+  double external_work = 0;               ///< [J] of body forces in the step
   double heat_given = 0, heat_taken = 0;  ///< [J] of the ledger, sums over cells with either sign
   double carried = 0, carriers = 0;       ///< [J] owed by points, negative; cells that came short
-  double stretch = 0;        ///< fixed reference: largest |F^T F - I|
+  double stretch = 0;                     ///< fixed reference: largest |F^T F - I|
   Ledger ledger;
   Fault fault;
 };

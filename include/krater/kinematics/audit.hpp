@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file kinematics/audit.hpp
-/// The account of energy (theory 11). The ledger (kinematics/mpm/ledger.hpp) makes heat of what the motion of
-/// points loses in a step, so that
+/// The account of energy (theory 11). The ledger (kinematics/mpm/ledger.hpp) makes heat of what the
+/// motion of points loses in a step, so that
 ///   residual = kinetic + internal + removed - (start + work from outside)
 /// is round-off: work of body forces, of driven rigid bodies and driven sides. What became heat is
 /// known by its cause: contact, walls, and the transfer between points and grid, which also takes
@@ -55,7 +55,8 @@ struct Audit {
   double step_external = 0;  ///< work of body forces in the step under way [J]
   double peak_energy = 0;    ///< greatest kinetic + internal + removed energy so far [J]
 
-  /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls included.
+  /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
+  /// included.
   struct StepHeat {
     double given = 0, taken = 0, contact = 0, walls = 0;
     double numerical = 0;  ///< of given and taken, where the pressure does not know the energy
@@ -81,8 +82,8 @@ struct Audit {
     const double start = initial_kinetic + initial_internal;
     return start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
   }
-  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that nothing
-  /// feels, heat that is owed. All of it as magnitudes.
+  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that
+  /// nothing feels, heat that is owed. All of it as magnitudes.
   double error_fraction() const {
     if (scale() == 0) return 0;
     return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried)) /

@@ -134,11 +134,10 @@ double MpmStep::step_usl(double dt) {
   if (xpic) note_forces();
   Constraints constraints = constrain();
   account_folds(constraints, dt);
-  if (!xpic) write_node_work();
-  if (xpic) {
-    const std::array<double, 3> impulse = filter_velocity();
-    for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
-  }
+  if (xpic)
+    filter_velocity(constraints.walls.impulse);
+  else
+    write_node_work();
   watch_energy(grid, constraints);
   grid_to_particles(xpic ? GatherPart::filter_move : GatherPart::all, dt);
   book(constraints);
@@ -351,8 +350,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
               scattering / static_cast<double>(memory_.size()));
   throw_faults();
   if (moves && rigid_.any()) rigid_.throw_collisions(grid_);
-  if (part != GatherPart::keep_only)
-    combine_patches(part);
+  if (part != GatherPart::keep_only) combine_patches(part);
 }
 
 void MpmStep::combine_patches(GatherPart part) {

@@ -128,8 +128,7 @@ Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
       const double before = point_kinetic(patch, i, columns, grid.geometry());
       renew_point(patch.points, columns, grid.geometry().dimension, i);
       const double lost = before - point_kinetic(patch, i, columns, grid.geometry());
-      patch.points.at(columns.energy, i) +=
-          lost / patch.points.at(columns.mass, i);
+      patch.points.at(columns.energy, i) += lost / patch.points.at(columns.mass, i);
       heat += lost;
     }
   }

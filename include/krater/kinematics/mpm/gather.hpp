@@ -7,10 +7,10 @@
 ///   v_p <- s+ + <r> + alpha (r - <r>),  r = v_p - s-,
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
 /// alpha = 1: FLIP; between 0 and 1: TFLIP, with the mean <r> of the points of the body in the cell
-/// (kinematics/mpm/ledger.hpp), so that no momentum leaves it; APIC and XPIC have alpha = 0 and no <r>. An
-/// isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not strain: alone
-/// its own pressure would expand it for ever. A failed one, which no tension holds, needs more
-/// company to carry L: two on their own would still expand (0.4).
+/// (kinematics/mpm/ledger.hpp), so that no momentum leaves it; APIC and XPIC have alpha = 0 and no
+/// <r>. An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not
+/// strain: alone its own pressure would expand it for ever. A failed one, which no tension holds,
+/// needs more company to carry L: two on their own would still expand (0.4).
 #include "krater/kinematics/mpm/ledger.hpp"
 #include "krater/kinematics/mpm/scatter.hpp"
 
@@ -172,8 +172,8 @@ KRATER_FORCE_INLINE void book_work(const GatherViews& view, const PointSums<Fram
                                    const SweepSettings& s, const double* beta, const double* cell,
                                    const CellSums& cells, int g) {
   const Pack v = 1.0 / view.density(g);
-  const auto L = mean_gradient<Frame, Configuration>(n.V, n.G, view.position(g, 0),
-                                                     reading(view.map), g);
+  const auto L =
+      mean_gradient<Frame, Configuration>(n.V, n.G, view.position(g, 0), reading(view.map), g);
   Pack own = (view.pressure(g) + view.viscous(g)) * L.trace;
   if (s.average_cells) {
     own = fnma(look_up(beta, cell), own, own);
@@ -226,8 +226,7 @@ KRATER_FORCE_INLINE void update_velocity(const GatherViews& view, const PointSum
   if constexpr (Affine)
     for (int a = 0; a < Dim; ++a)
       for (int i = 0; i < Dim; ++i) {
-        const Pack old = view.affine(g, Dim * i + a),
-                   now = select(silent, Pack(0.0), n.G[a][i]);
+        const Pack old = view.affine(g, Dim * i + a), now = select(silent, Pack(0.0), n.G[a][i]);
         view.affine.set(g, Dim * i + a, now);
         squares = fma(old - now, old + now, squares);
       }
@@ -284,7 +283,8 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
     trace += Ended ? step[i][i] * (1 / dt) : L[i][i];
   }
   if constexpr (Frame::hoop) {
-    const Pack hoop = n.V[0] / view.position(g, 0), change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
+    const Pack hoop = n.V[0] / view.position(g, 0),
+               change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
     view.step_gradient.set(g, 4, change);
     trace += Ended ? change * (1 / dt) : hoop;
   }

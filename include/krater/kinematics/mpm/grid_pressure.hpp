@@ -12,18 +12,17 @@
 ///   tr_p = tr L + sum_j S_j (D_j - T_j)/V_j,
 ///   D_j = sum_c int_c phi N_j div(v) dV,   T_j = sum_p S_j V tr L.
 /// The second line is the adjoint of the first, so that force and strain exchange exactly what one
-/// of them gives: the work is V (p + q) tr_p, with the mean velocity of the step. A uniform pressure gives no force inside; a closed box
-/// keeps sum V to round-off, for sum V tr_p = sum D_j = int div(v). N: quadratic B-splines,
-/// whatever S is; int over dual cells, where they are polynomials, by 2 Gauss points per axis
-/// (exact for a uniform pressure, about the axis too). phi: share of the fluid in what fills a
-/// node, contact's other fields included.
-/// Cells and the points in them take part by a weight: 1 where every node of the cell is filled
-/// to a quarter, by anything, and by the field of the fluid alone, falling to 0. A
-/// free surface is then integrated over its points (a flat one cuts off 0.1 of such a cell), and a
-/// force on a node vanishes with the mass it would move.
-/// Assumptions: current reference; a node's mean pressure is one pressure (fluids that share a
-/// field share it). Related: cell-wise pressure of staggered-grid hydrodynamics; Baumgarten &
-/// Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
+/// of them gives: the work is V (p + q) tr_p, with the mean velocity of the step. A uniform
+/// pressure gives no force inside; a closed box keeps sum V to round-off, for sum V tr_p = sum D_j
+/// = int div(v). N: quadratic B-splines, whatever S is; int over dual cells, where they are
+/// polynomials, by 2 Gauss points per axis (exact for a uniform pressure, about the axis too). phi:
+/// share of the fluid in what fills a node, contact's other fields included. Cells and the points
+/// in them take part by a weight: 1 where every node of the cell is filled to a quarter, by
+/// anything, and by the field of the fluid alone, falling to 0. A free surface is then integrated
+/// over its points (a flat one cuts off 0.1 of such a cell), and a force on a node vanishes with
+/// the mass it would move. Assumptions: current reference; a node's mean pressure is one pressure
+/// (fluids that share a field share it). Related: cell-wise pressure of staggered-grid
+/// hydrodynamics; Baumgarten & Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
 #include <algorithm>
 #include <numbers>
 
@@ -312,34 +311,34 @@ void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
     sweep.scatter(lw, channels);
   }
   sweep.for_cells([&](const CellPlace<D>& place, double part) {
-    for_gauss_points<Frame>(
-        *sweep.s.geometry, sweep.origin, place,
-        [&](double weight, double r, const double* N, const auto& grad) {
-          double div = 0, change = 0, share = 0;
-          for (int n = 0; n < power_of_three<D>; ++n) {
-            const int at = kNodeDoubles * (place.tile + node_offset<D>(n));
-            for (int a = 0; a < D; ++a) {
-              div += grad[a][n] * halo[at + a];
-              change += grad[a][n] * halo[at + 4 + a];
-            }
-            if constexpr (Frame::hoop) {
-              div += N[n] * halo[at] / r;
-              change += N[n] * halo[at + 4] / r;
-            }
-            share += N[n] * shares[at + kNodeShare];
-          }
-          const double flux = part * weight * share;
-          for (int n = 0; n < power_of_three<D>; ++n) {
-            double* node = sweep.tile + kNodeDoubles * (place.tile + node_offset<D>(n));
-            node[kNodeDilatation] += N[n] * flux * div;
-            node[kNodeWorkRate] += N[n] * flux * (div - 0.5 * change);
-          }
-        });
+    for_gauss_points<Frame>(*sweep.s.geometry, sweep.origin, place,
+                            [&](double weight, double r, const double* N, const auto& grad) {
+                              double div = 0, change = 0, share = 0;
+                              for (int n = 0; n < power_of_three<D>; ++n) {
+                                const int at = kNodeDoubles * (place.tile + node_offset<D>(n));
+                                for (int a = 0; a < D; ++a) {
+                                  div += grad[a][n] * halo[at + a];
+                                  change += grad[a][n] * halo[at + 4 + a];
+                                }
+                                if constexpr (Frame::hoop) {
+                                  div += N[n] * halo[at] / r;
+                                  change += N[n] * halo[at + 4] / r;
+                                }
+                                share += N[n] * shares[at + kNodeShare];
+                              }
+                              const double flux = part * weight * share;
+                              for (int n = 0; n < power_of_three<D>; ++n) {
+                                double* node =
+                                    sweep.tile + kNodeDoubles * (place.tile + node_offset<D>(n));
+                                node[kNodeDilatation] += N[n] * flux * div;
+                                node[kNodeWorkRate] += N[n] * flux * (div - 0.5 * change);
+                              }
+                            });
   });
 }
 
-/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record. `works`: the same of
-/// the mean velocity, times the pressure, is part of the work that the points' energy receives.
+/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record. `works`: the same
+/// of the mean velocity, times the pressure, is part of the work that the points' energy receives.
 template <bool works, class Frame, class Shape>
 void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   constexpr int D = Frame::dim;

@@ -102,7 +102,7 @@ class MpmStep {
   bool may_scatter_ahead(GatherPart part) const;
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
-  std::array<double, 3> filter_velocity();
+  void filter_velocity(std::array<double, 3>& impulse);
   void note_forces();
   void write_filtered_work();
   void relink_fluids();
@@ -145,7 +145,7 @@ class MpmStep {
 
   Audit audit_;
   EnergyWatch energy_watch_;
-  bool loaded_;  ///< body forces act
+  bool loaded_;           ///< body forces act
   Audit::StepHeat heat_;  ///< of the step under way
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;
