@@ -106,8 +106,8 @@ double residual_after(const Case& c, const Overrides& overrides, int steps) {
 
 }  // namespace
 
-TEST_SUITE("verification/ledger") {
-  TEST_CASE("one step of any state: energy changes by the work from outside") {
+TEST_SUITE("verification") {
+  TEST_CASE("ledger: one step of any state: energy changes by the work from outside") {
     for (const std::string frame : {"plane_strain", "axisymmetric", "3d"})
       for (const std::string transfer : {"tflip", "flip", "apic", "xpic"})
         for (const std::string update : {"usl", "musl", "usf"})

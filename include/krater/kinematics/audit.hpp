@@ -38,6 +38,7 @@ struct Audit {
   double largest_carried = 0, carriers = 0;  ///< the most so far; cells and steps that came short
   double contact_heat = 0;   ///< what contact took from motion, friction included [J]
   double friction_work = 0;  ///< of tangential impulses, negative [J]
+  double rigid_loss = 0;     ///< of turning rigid bodies, by the steps of their turn [J]
   double wall_heat = 0;      ///< what sides of the domain took from motion [J]
   double external_work = 0;  ///< of body forces and driven rigid bodies [J]
   double wall_work = 0;      ///< of sides of the domain that move, from outside [J]
@@ -75,7 +76,7 @@ struct Audit {
   /// [J].
   double residual(double measured_kinetic, double measured_internal) const {
     return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) -
-           external_work - wall_work + removed_energy;
+           external_work - wall_work + removed_energy + rigid_loss;
   }
   /// Energy at the start, or the work of loads and sides where a scene starts without any [J].
   double scale() const {
@@ -86,7 +87,8 @@ struct Audit {
   /// nothing feels, heat that is owed. All of it as magnitudes.
   double error_fraction() const {
     if (scale() == 0) return 0;
-    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried)) /
+    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried) +
+            std::abs(rigid_loss)) /
            scale();
   }
 };

@@ -319,7 +319,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   const bool ahead = may_scatter_ahead(part);
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
-  if (moves && rigid_.any()) rigid_.finish(grid_, dt);
+  if (moves && rigid_.any()) finish_rigid(dt);
   if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(s);
   for_each(grid_.patches().size(), [&](std::size_t p) {
     const SweepScratch w = scratch();

@@ -89,6 +89,7 @@ class MpmStep {
   /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
   Constraints constrain(bool projection = false);
   void begin_rigid(double dt, GridEnergy& energy);
+  void finish_rigid(double dt);
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
   void write_node_work();
