@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy ledger (kinematics/mpm/ledger.hpp): in one step of any state whatever, kinetic and internal
-// energy change by the work from outside, to round-off, and an observer who moves sees the same
-// heat.
+// The energy ledger (kinematics/mpm/ledger.hpp): in one step of any state whatever, kinetic and
+// internal energy change by the work from outside, to round-off, and an observer who moves sees the
+// same heat.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 #include <sstream>
 
+#include "krater/points/ledger_fields.hpp"
 #include "verification/run_support.hpp"
 
 namespace {
@@ -105,8 +106,8 @@ double residual_after(const Case& c, const Overrides& overrides, int steps) {
 
 }  // namespace
 
-TEST_SUITE("verification/ledger") {
-  TEST_CASE("one step of any state: energy changes by the work from outside") {
+TEST_SUITE("verification") {
+  TEST_CASE("ledger: one step of any state: energy changes by the work from outside") {
     for (const std::string frame : {"plane_strain", "axisymmetric", "3d"})
       for (const std::string transfer : {"tflip", "flip", "apic", "xpic"})
         for (const std::string update : {"usl", "musl", "usf"})
@@ -148,6 +149,28 @@ TEST_SUITE("verification/ledger") {
                            {"method.grid_pressure=all", "method.update=musl"}, 2) < 2e-13);
       CHECK(residual_after({.frame = frame, .more = ""},
                            {"method.grid_pressure=all", "method.update=usf"}, 2) < 2e-13);
+    }
+  }
+
+  TEST_CASE("heat that cold matter cannot give is carried, and counted") {
+    const Overrides gas{
+        "materials.m={density: 1000, eos: {ideal_gas: {gamma: 1.4, initial_pressure: 1e5}}}",
+        "method.grid_pressure=none"};
+    for (const std::string frame : {"plane_strain", "3d"}) {
+      CAPTURE(frame);
+      Run run = start_text(blocks({.frame = frame, .more = ""}), gas);
+      shake(run, 2);
+      const double start = run.sim->totals().kinetic;
+      run_steps(run, 1);
+      CHECK(run.sim->audit().carried < 0);
+      double owed = 0;
+      for (int b = 0; b < 2; ++b) {
+        const std::vector<double> m = column(run, field::Mass::info, 0, b),
+                                  c = column(run, field::CarriedEnergy::info, 0, b);
+        for (std::size_t i = 0; i < m.size(); ++i) owed += m[i] * c[i];
+      }
+      CHECK(owed == doctest::Approx(run.sim->audit().carried).epsilon(1e-12));
+      CHECK(std::abs(energy_residual(run)) < 2e-13 * start);
     }
   }
 

@@ -10,8 +10,8 @@
 /// x_i): exact for every shape, no special knots (theory 19). With m_g, p_g, f_g of the ghost and
 /// p_0, f_0 of the plane as scattered, odd components only, the points receive
 ///   J = -2 (m_g dv_1 + dt f_g) - dt f_0 - (1 - alpha) [2 (p_g + m_g v-_1) + p_0],
-/// where alpha is the share that they keep of the mean residual of their cell (FLIP and TFLIP 1: the
-/// fold of v- then never reaches them). These planes do no work.
+/// where alpha is the share that they keep of the mean residual of their cell (FLIP and TFLIP 1:
+/// the fold of v- then never reaches them). These planes do no work.
 ///
 /// Planes that push - wall, velocity: unilateral, after the momentum update. The plane may lie
 /// beside its node line, which is then delta cells beyond it, |delta| <= 1/2. Held, a column moves

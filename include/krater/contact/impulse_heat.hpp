@@ -2,13 +2,15 @@
 #pragma once
 /// \file contact/impulse_heat.hpp
 /// Heat of impulses at nodes: contact of fields, walls. What pushes changes v+ of some nodes by
-/// dvJ_k; with the final v+ of the step, after everything that pushes, and vbar = v+ - dv/2 it takes
+/// dvJ_k; with the final v+ of the step, after everything that pushes, and vbar = v+ - dv/2 it
+/// takes
 ///   D = W - sum_k m_k vbar_k . dvJ_k
 /// from their motion, W the work of what pushed from outside (a driven side, a rigid body). D is
 /// heat of these nodes, equal per mass: eta = D / sum m_k, in what the gather reads of a node
-/// (kinematics/mpm/ledger.hpp). For an inelastic stop of two fields D = J/2 times the closing velocity of v-;
-/// a lasting joint costs nothing however large J is. Booked push by push instead, with the v+ of the
-/// moment, the cross terms of three fields, or of contact and then a wall, would be lost.
+/// (kinematics/mpm/ledger.hpp). For an inelastic stop of two fields D = J/2 times the closing
+/// velocity of v-; a lasting joint costs nothing however large J is. Booked push by push instead,
+/// with the v+ of the moment, the cross terms of three fields, or of contact and then a wall, would
+/// be lost.
 #include <array>
 #include <vector>
 

@@ -50,8 +50,8 @@ struct BatchData {
   Ledger* ledger;
   Fault* fault;
   /// Share of the step's work that the stages book in the energy: all of it where matter stands
-  /// alone; none where a ledger has booked it (kinematics/mpm/ledger.hpp). The energy then is that of the
-  /// middle of the step, half a step behind the pressure.
+  /// alone; none where a ledger has booked it (kinematics/mpm/ledger.hpp). The energy then is that
+  /// of the middle of the step, half a step behind the pressure.
   double energy_share = 1;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file kinematics/audit.hpp
-/// The account of energy (theory 11). The ledger (kinematics/mpm/ledger.hpp) makes heat of what the motion of
-/// points loses in a step, so that
+/// The account of energy (theory 11). The ledger (kinematics/mpm/ledger.hpp) makes heat of what the
+/// motion of points loses in a step, so that
 ///   residual = kinetic + internal + removed - (start + work from outside)
 /// is round-off: work of body forces, of driven rigid bodies and driven sides. What became heat is
 /// known by its cause: contact, walls, and the transfer between points and grid, which also takes
@@ -38,6 +38,7 @@ struct Audit {
   double largest_carried = 0, carriers = 0;  ///< the most so far; cells and steps that came short
   double contact_heat = 0;   ///< what contact took from motion, friction included [J]
   double friction_work = 0;  ///< of tangential impulses, negative [J]
+  double rigid_loss = 0;     ///< of turning rigid bodies, by the steps of their turn [J]
   double wall_heat = 0;      ///< what sides of the domain took from motion [J]
   double external_work = 0;  ///< of body forces and driven rigid bodies [J]
   double wall_work = 0;      ///< of sides of the domain that move, from outside [J]
@@ -55,7 +56,8 @@ struct Audit {
   double step_external = 0;  ///< work of body forces in the step under way [J]
   double peak_energy = 0;    ///< greatest kinetic + internal + removed energy so far [J]
 
-  /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls included.
+  /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
+  /// included.
   struct StepHeat {
     double given = 0, taken = 0, contact = 0, walls = 0;
     double numerical = 0;  ///< of given and taken, where the pressure does not know the energy
@@ -74,18 +76,19 @@ struct Audit {
   /// [J].
   double residual(double measured_kinetic, double measured_internal) const {
     return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) -
-           external_work - wall_work + removed_energy;
+           external_work - wall_work + removed_energy + rigid_loss;
   }
   /// Energy at the start, or the work of loads and sides where a scene starts without any [J].
   double scale() const {
     const double start = initial_kinetic + initial_internal;
     return start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
   }
-  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that nothing
-  /// feels, heat that is owed. All of it as magnitudes.
+  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that
+  /// nothing feels, heat that is owed. All of it as magnitudes.
   double error_fraction() const {
     if (scale() == 0) return 0;
-    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried)) /
+    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried) +
+            std::abs(rigid_loss)) /
            scale();
   }
 };

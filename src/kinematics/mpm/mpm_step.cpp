@@ -87,8 +87,7 @@ void MpmStep::meet(double dt) {
   constraints_ = constrain();
   account_folds(dt);
   if (method_.transfer == Transfer::xpic) {
-    const std::array<double, 3> impulse = filter_velocity();
-    for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += impulse[a];
+    filter_velocity(constraints_.walls.impulse);
   } else {
     write_node_work();
   }
@@ -313,7 +312,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   const bool ahead = may_scatter_ahead(part);
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
-  if (moves && rigid_.any()) rigid_.finish(grid_, dt);
+  if (moves && rigid_.any()) finish_rigid(dt);
   if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(s);
   for_each(grid_.patches().size(), [&](std::size_t p) {
     const SweepScratch w = scratch();

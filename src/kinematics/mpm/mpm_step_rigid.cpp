@@ -13,6 +13,13 @@ void MpmStep::begin_rigid(double dt, GridEnergy& energy) {
   audit_.step_external += work;
 }
 
+// A turn keeps the angular momentum, not quite the energy; a rigid body has no heat to keep it in.
+void MpmStep::finish_rigid(double dt) {
+  const double before = rigid_.kinetic();
+  rigid_.finish(grid_, dt);
+  audit_.rigid_loss += before - rigid_.kinetic();
+}
+
 void MpmStep::move_rigid(std::size_t p, const SweepScratch& w) {
   Patch& patch = grid_.patches()[p];
   const PointColumns& columns = bodies_[static_cast<unsigned>(patch.body)].columns;

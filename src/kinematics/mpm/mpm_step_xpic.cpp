@@ -6,17 +6,16 @@
 
 namespace krater {
 
-// Returns the impulse of walls [N s]: they act on each term S+ S dv(l), which enters with a minus
+// Adds the impulse of walls [N s]: they act on each term S+ S dv(l), which enters with a minus
 // sign.
-std::array<double, 3> MpmStep::filter_velocity() {
+void MpmStep::filter_velocity(std::array<double, 3>& impulse) {
   // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
   // (2017), FMPM form.
   const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
   const std::size_t total = grid_.node_blocks().size() * block_doubles;
   double* sum = filtered_.data();
   double* increment = sum + total;
-  std::array<double, 3> impulse{};
-  if (total == 0) return impulse;
+  if (total == 0) return;
   double* nodes = grid_.nodes();  // node memory is contiguous over blocks
   std::copy(nodes, nodes + total, sum);
   for (int order = 1; order < method_.xpic_order; ++order) {
@@ -38,7 +37,6 @@ std::array<double, 3> MpmStep::filter_velocity() {
   }
   std::copy(sum, sum + total, nodes);
   write_filtered_work();
-  return impulse;
 }
 
 // The nodes as the forces left them, before anything else.
@@ -48,8 +46,8 @@ void MpmStep::note_forces() {
   std::copy(grid_.nodes(), grid_.nodes() + total, filtered_.data() + 2 * total);
 }
 
-// The filter is one more change of v+, after the forces f and walls at rest: dv = v(m) - v-, and what
-// it takes from motion is in k = vbar . (dt f/m) (mpm/ledger.hpp) by the vbar of v(m).
+// The filter is one more change of v+, after the forces f and walls at rest: dv = v(m) - v-, and
+// what it takes from motion is in k = vbar . (dt f/m) (mpm/ledger.hpp) by the vbar of v(m).
 void MpmStep::write_filtered_work() {
   const std::size_t total = grid_.node_blocks().size() * kBlockNodes * kNodeDoubles;
   double* nodes = grid_.nodes();

@@ -7,10 +7,10 @@
 ///   v_p <- s+ + <r> + alpha (r - <r>),  r = v_p - s-,
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
 /// alpha = 1: FLIP; between 0 and 1: TFLIP, with the mean <r> of the points of the body in the cell
-/// (kinematics/mpm/ledger.hpp), so that no momentum leaves it; APIC and XPIC have alpha = 0 and no <r>. An
-/// isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not strain: alone
-/// its own pressure would expand it for ever. A failed one, which no tension holds, needs more
-/// company to carry L: two on their own would still expand (0.4).
+/// (kinematics/mpm/ledger.hpp), so that no momentum leaves it; APIC and XPIC have alpha = 0 and no
+/// <r>. An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not
+/// strain: alone its own pressure would expand it for ever. A failed one, which no tension holds,
+/// needs more company to carry L: two on their own would still expand (0.4).
 #include "krater/kinematics/mpm/ledger.hpp"
 #include "krater/kinematics/mpm/scatter.hpp"
 

@@ -20,6 +20,16 @@ KRATER_FORCE_INLINE void fetch_record(const Patch& patch, int stride, int g) {
 }
 inline constexpr int kFetchAhead = 3;  ///< lane groups
 
+template <int Dim>
+KRATER_FORCE_INLINE void note_velocity_fault(Patch& patch, const PointSums<Dim>& n, int g) {
+  Pack check = n.V[0];
+  for (int a = 0; a < Dim; ++a)
+    for (int i = 0; i < Dim; ++i) check += n.G[a][i];
+  const unsigned bad = bits(!is_finite(check) & first_lanes(patch.points.count() - kLanes * g));
+  if (bad != 0 && patch.result.fault.kind == FaultKind::none)
+    patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
+}
+
 /// First pass: nodes -> points.
 template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
 void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
@@ -46,13 +56,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
     const Alone alone = alone_points<D>(view, n, lw, g);
 
-    Pack check = n.V[0];
-    for (int a = 0; a < D; ++a)
-      for (int i = 0; i < D; ++i) check += n.G[a][i];
-    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.points.count() - kLanes * g));
-    if (bad != 0 && patch.result.fault.kind == FaultKind::none)
-      patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
-
+    note_velocity_fault<D>(patch, n, g);
     if constexpr (T::velocity)
       book_work<Frame, Configuration>(view, n, s, patch.beta.data(), cell, cells, g);
     if constexpr (T::strain) {

@@ -12,18 +12,17 @@
 ///   tr_p = tr L + sum_j S_j (D_j - T_j)/V_j,
 ///   D_j = sum_c int_c phi N_j div(v) dV,   T_j = sum_p S_j V tr L.
 /// The second line is the adjoint of the first, so that force and strain exchange exactly what one
-/// of them gives: the work is V (p + q) tr_p, with the mean velocity of the step. A uniform pressure gives no force inside; a closed box
-/// keeps sum V to round-off, for sum V tr_p = sum D_j = int div(v). N: quadratic B-splines,
-/// whatever S is; int over dual cells, where they are polynomials, by 2 Gauss points per axis
-/// (exact for a uniform pressure, about the axis too). phi: share of the fluid in what fills a
-/// node, contact's other fields included.
-/// Cells and the points in them take part by a weight: 1 where every node of the cell is filled
-/// to a quarter, by anything, and by the field of the fluid alone, falling to 0. A
-/// free surface is then integrated over its points (a flat one cuts off 0.1 of such a cell), and a
-/// force on a node vanishes with the mass it would move.
-/// Assumptions: current reference; a node's mean pressure is one pressure (fluids that share a
-/// field share it). Related: cell-wise pressure of staggered-grid hydrodynamics; Baumgarten &
-/// Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
+/// of them gives: the work is V (p + q) tr_p, with the mean velocity of the step. A uniform
+/// pressure gives no force inside; a closed box keeps sum V to round-off, for sum V tr_p = sum D_j
+/// = int div(v). N: quadratic B-splines, whatever S is; int over dual cells, where they are
+/// polynomials, by 2 Gauss points per axis (exact for a uniform pressure, about the axis too). phi:
+/// share of the fluid in what fills a node, contact's other fields included. Cells and the points
+/// in them take part by a weight: 1 where every node of the cell is filled to a quarter, by
+/// anything, and by the field of the fluid alone, falling to 0. A free surface is then integrated
+/// over its points (a flat one cuts off 0.1 of such a cell), and a force on a node vanishes with
+/// the mass it would move. Assumptions: current reference; a node's mean pressure is one pressure
+/// (fluids that share a field share it). Related: cell-wise pressure of staggered-grid
+/// hydrodynamics; Baumgarten & Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
 #include <algorithm>
 #include <numbers>
 
@@ -338,8 +337,8 @@ void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   });
 }
 
-/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record. `works`: the same of
-/// the mean velocity, times the pressure, is part of the work that the points' energy receives.
+/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record. `works`: the same
+/// of the mean velocity, times the pressure, is part of the work that the points' energy receives.
 template <bool works, class Frame, class Shape>
 void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   constexpr int D = Frame::dim;

@@ -7,8 +7,8 @@
 ///
 /// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the
 /// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-; for the gather
-/// the work k of the step (kinematics/mpm/ledger.hpp) takes the place of V. Two-dimensional frames leave
-/// index 2 unused.
+/// the work k of the step (kinematics/mpm/ledger.hpp) takes the place of V. Two-dimensional frames
+/// leave index 2 unused.
 #include <array>
 #include <vector>
 

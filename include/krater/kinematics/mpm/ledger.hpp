@@ -4,8 +4,9 @@
 /// The energy ledger: what a step takes from the motion of the points of a cell, and does not give
 /// back as stress power, becomes heat of these points. At the nodes, with the final v+ = v- + dv
 /// (forces, contact, walls) and vbar = v- + dv/2,
-///   k_i = vbar_i . dv_i + eta_i          eta: heat of contact and walls (contact/impulse_heat.hpp),
-/// and at the points, with s = sum S v, L = sum v (x) grad S, Ds = sum S dv, r = v_p - s-, D = h^2/4,
+///   k_i = vbar_i . dv_i + eta_i       eta: heat of contact and walls (contact/impulse_heat.hpp),
+/// and at the points, with s = sum S v, L = sum v (x) grad S, Ds = sum S dv, r = v_p - s- and
+/// D = h^2/4,
 ///   W  = dt V sigma : (L+ + L-)/2        work of the very stress that was scattered,
 ///   v1 = v_p + Ds,  n = sum S k - Ds.(v_p + Ds/2) + D/2 (|L_p|^2 - |L'_p|^2),
 /// and over the points of a body with a common base node, gamma = 1 - alpha,
@@ -22,9 +23,10 @@
 /// E_c < 0 is taken from the heat a of the points (materials/stages/heat_floor_stage.hpp), in
 /// proportion to it and no more than there is; the rest is carried by the points of the cell as a
 /// debt, which counts in the internal energy, and paid from what they are given next.
-/// e is that of t_{n+1/2}, where the velocities are; the stages find the pressure half a step ahead.
-/// Sources: Burgess, Sulsky, Brackbill 1992 (JCP 103, 1) for the loss of the round trip; Caramana,
-/// Burton, Shashkov, Whalen 1998 (JCP 146, 227) for the work of the very forces; DeBar 1974.
+/// e is that of t_{n+1/2}, where the velocities are; the stages find the pressure half a step
+/// ahead. Sources: Burgess, Sulsky, Brackbill 1992 (JCP 103, 1) for the loss of the round trip;
+/// Caramana, Burton, Shashkov, Whalen 1998 (JCP 146, 227) for the work of the very forces; DeBar
+/// 1974.
 #include "krater/kinematics/mpm/cells.hpp"
 #include "krater/kinematics/mpm/configuration.hpp"
 #include "krater/kinematics/mpm/frames.hpp"

@@ -93,6 +93,7 @@ class MpmStep final : public Kinematics {
   /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
   Constraints constrain(bool projection = false);
   void begin_rigid(double dt, GridEnergy& energy);
+  void finish_rigid(double dt);
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
   void write_node_work();
@@ -106,7 +107,7 @@ class MpmStep final : public Kinematics {
   bool may_scatter_ahead(GatherPart part) const;
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
-  std::array<double, 3> filter_velocity();
+  void filter_velocity(std::array<double, 3>& impulse);
   void note_forces();
   void write_filtered_work();
   void relink_fluids();

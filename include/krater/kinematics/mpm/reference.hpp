@@ -24,7 +24,8 @@ namespace krater {
 double largest_strain(const BlockGrid& grid, int body);
 
 /// Take the current configuration of a body as reference. Returns what left through open sides;
-/// `heat`: lost by the affine part, and given to the points as internal energy [J]. Relink afterwards.
+/// `heat`: lost by the affine part, and given to the points as internal energy [J]. Relink
+/// afterwards.
 Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
                         const PointColumns& columns, double& heat);
 

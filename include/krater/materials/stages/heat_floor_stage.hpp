@@ -3,7 +3,7 @@
 /// Heat that may be taken from a point without cooling it below absolute zero; the ledger takes no
 /// more (kinematics/mpm/ledger.hpp). Not one of a material's stages: applied where heat is taken.
 ///   a = e - e_s(rho) + a_0,   a_0 = 1e-3 c0^2   (a solid at its reference state), or
-///                             a_0 = e_0 T_s(rho)/T_ref   (a gas, whose energy is heat from the start)
+///                            a_0 = e_0 T_s(rho)/T_ref   (a gas: its energy is heat from the start)
 /// with the isentrope e_s, T_s through the reference state (heating/isentrope.hpp); 1e-3 c0^2 is a
 /// tenth of c_v T at room temperature in metals. An expanded solid, which may hold voids or have
 /// failed, is judged by e_s(rho0): its cold tension is not its own.
