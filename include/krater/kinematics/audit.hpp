@@ -93,8 +93,8 @@ struct Audit {
   }
 };
 
-/// visit(name, entry) of all entries in the order of their memory: what a checkpoint keeps, and what
-/// must be a number.
+/// visit(name, entry) of all entries in the order of their memory: what a checkpoint keeps, and
+/// what must be a number.
 template <class Account, class Visit>
 constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("kinetic", a.kinetic);
@@ -109,6 +109,7 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("carriers", a.carriers);
   visit("contact_heat", a.contact_heat);
   visit("friction_work", a.friction_work);
+  visit("rigid_loss", a.rigid_loss);
   visit("wall_heat", a.wall_heat);
   visit("external_work", a.external_work);
   visit("wall_work", a.wall_work);

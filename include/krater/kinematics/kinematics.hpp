@@ -29,8 +29,8 @@ class Kinematics {
   Kinematics& operator=(const Kinematics&) = delete;
   virtual ~Kinematics();
 
-  /// Returns the step that is safe, `dt` or less [s]. May be asked again, with a shorter one, before
-  /// a point is touched.
+  /// Returns the step that is safe, `dt` or less [s]. May be asked again, with a shorter one,
+  /// before a point is touched.
   virtual double force(double dt) = 0;
   virtual void meet(double dt) = 0;
   virtual void move(double dt) = 0;

@@ -19,8 +19,8 @@ struct PointNeeds {
 };
 
 void declare_points(const MethodOptions& method, const PointNeeds& needs, Layout& layout);
-/// After the stages of the material. `heat_floor`: the ledger may owe heat; `fluid`: the pressure is
-/// integrated on the grid.
+/// After the stages of the material. `heat_floor`: the ledger may owe heat; `fluid`: the pressure
+/// is integrated on the grid.
 void declare_results(bool heat_floor, bool fluid, Layout& layout);
 /// Of a rigid body: what the scatter and the motion as a whole need; no stress, no law.
 void declare_rigid_points(const MethodOptions& method, double density, Layout& layout);
