@@ -270,9 +270,9 @@ BoundaryWork BoundarySet::constrain() {
   return sum;
 }
 
-/// Volumes at the plane's nodes and beside them, (1 2 1) along each axis of the plane. Material that
-/// has spread along the plane is a lattice of wide columns: single columns of nodes held 0.7 and 1.4
-/// of their due, and where they were let go the points beside were pressed through the plane.
+/// Volumes at the plane's nodes and beside them, (1 2 1) along each axis of the plane. Material
+/// that has spread along the plane is a lattice of wide columns: single columns of nodes held 0.7
+/// and 1.4 of their due, and where they were let go the points beside were pressed through.
 void BoundarySet::note_fills(Plane& plane) {
   for (Column& c : plane.columns) c.fill = {c.plane[kVolume], c.inner[kVolume] + c.ghost[kVolume]};
   std::vector<std::array<double, 2>> raw(plane.columns.size());

@@ -15,8 +15,8 @@ using namespace krater;
 using namespace krater::test;
 
 /// Columns that the wall holds in the first step of a block of 40 cells that moves towards it. Its
-/// columns of points lie in pairs (whole ones at the symmetry planes, images included), `depth` cells
-/// lower and higher, `gap` cells above the wall.
+/// columns of points lie in pairs (whole ones at the symmetry planes, images included), `depth`
+/// cells lower and higher, `gap` cells above the wall.
 double held(double depth, double gap) {
   Run run = start_text(
       "frame: plane_strain\ngrid: {cell: 1, box: {min: [0, 0], max: [40, 12]}, boundary: {x_min: "

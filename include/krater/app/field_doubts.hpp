@@ -13,8 +13,8 @@
 
 namespace krater {
 
-/// One sentence per pair of materials whose densities differ more than tenfold in one field, and per
-/// fluid in contact with less than four points per direction.
+/// One sentence per pair of materials whose densities differ more than tenfold in one field, and
+/// per fluid in contact with less than four points per direction.
 std::vector<std::string> doubt_fields(const Scene& scene);
 
 }  // namespace krater

@@ -79,8 +79,8 @@ constexpr int node_offset(int n) {
   return Dim == 3 ? (n / 9 * T + n / 3 % 3) * T + n % 3 : n / 3 * T + n % 3;
 }
 
-/// The 2^D Gauss points of a dual cell. Sums over its 3^D nodes go axis by axis: 57 products a point
-/// and field in space become 14.
+/// The 2^D Gauss points of a dual cell. Sums over its 3^D nodes go axis by axis: in space 57
+/// products a point and field become 14.
 template <class Frame>
 class GaussCell {
  public:
