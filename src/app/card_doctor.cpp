@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "krater/materials/catalogue.hpp"
-#include "krater/materials/scalar_eos.hpp"
 
 namespace krater {
 
@@ -160,9 +159,11 @@ void check_fracture_strain(const MaterialOptions& m, std::vector<std::string>& d
 }  // namespace
 
 double bulk_modulus_at_rest(const MaterialOptions& m) {
-  if (!m.eos) return 0;
-  const MaterialConstants constants{m.density, m.shear_modulus, m.initial_temperature};
-  const double c0 = make_scalar_eos(m.eos->law, m.eos->values.data(), constants)->c0;
+  const std::optional<LawChoice>& law = m.eos ? m.eos : m.model;
+  if (!law) return 0;
+  const double c0 = sound_speed_at_rest(law->law, law->values.data(),
+                                        {m.density, m.shear_modulus, m.initial_temperature})
+                        .value();
   return m.density * c0 * c0;
 }
 

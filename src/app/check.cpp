@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -113,16 +114,16 @@ void print_body(const Simulation& sim, const Scene& scene, int index, int coarse
 /// targets).
 double closing_speed(const Simulation& sim, double fastest) {
   double closing = fastest;
-  const auto mean_velocity = [&](std::size_t body) {
+  std::vector<Triple> velocities(sim.bodies().size());
+  for (std::size_t body = 0; body < velocities.size(); ++body) {
     const Totals t = sim.totals(static_cast<int>(body));
-    Triple v{};
-    for (std::size_t k = 0; k < 3; ++k) v[k] = t.mass > 0 ? t.momentum[k] / t.mass : 0;
-    return v;
-  };
+    for (std::size_t k = 0; k < 3; ++k)
+      velocities[body][k] = t.mass > 0 ? t.momentum[k] / t.mass : 0;
+  }
   for (std::size_t a = 0; a < sim.bodies().size(); ++a) {
-    const Triple v = mean_velocity(a);
+    const Triple& v = velocities[a];
     for (std::size_t b = 0; b < a; ++b) {
-      const Triple w = mean_velocity(b);
+      const Triple& w = velocities[b];
       closing = std::max(closing, std::hypot(v[0] - w[0], v[1] - w[1], v[2] - w[2]));
     }
     for (std::size_t k = 0; k < 3; ++k)
@@ -152,6 +153,11 @@ void print_advice(const Scene& scene, double fastest, double closing) {
           "advice: {}: {:.0f} m/s with a linear equation of state; shocks need "
           "mie_gruneisen_shock\n",
           m.name, fastest);
+    if (closing > 300 && m.strength && m.strength->name == "elastic")
+      fmt::print(
+          "advice: {}: elastic never yields and is meant for small strains; {:.0f} m/s calls for a "
+          "yield law\n",
+          m.name, closing);
     if (fastest > 50 && !m.viscosity)
       fmt::print("advice: {}: no viscosity block; shocks will ring (add viscosity: {{}})\n",
                  m.name);

@@ -124,7 +124,7 @@ std::string other_unit(double value, const char* unit, double usual) {
 unsigned kind_of(const MaterialOptions& m) {
   if (m.eos && m.eos->name == "ideal_gas") return gas;
   if (m.eos && m.eos->name == "jwl") return explosive;
-  return m.strength || m.shear_modulus > 0 ? solid : fluid;
+  return m.strength || m.model || m.shear_modulus > 0 ? solid : fluid;
 }
 
 std::string name_of_kind(unsigned kind) {
@@ -162,7 +162,7 @@ void doubt(const Examined& number, unsigned kind, std::vector<std::string>& doub
 bool ideal(const MaterialOptions& m) {
   const bool elastic =
       !m.strength || m.strength->name == "elastic" || m.strength->name == "neo_hookean";
-  return elastic && (!m.eos || m.eos->name == "linear");
+  return elastic && !m.model && (!m.eos || m.eos->name == "linear");
 }
 
 std::optional<double> bulk_given(const MaterialOptions& m) {
@@ -172,7 +172,7 @@ std::optional<double> bulk_given(const MaterialOptions& m) {
 
 /// Longitudinal wave speed at rest [m/s].
 double wave_speed(const MaterialOptions& m) {
-  const double K = m.eos ? bulk_modulus_at_rest(m) : m.bulk_modulus.value_or(0);
+  const double K = m.eos || m.model ? bulk_modulus_at_rest(m) : m.bulk_modulus.value_or(0);
   return std::sqrt((K + 4.0 / 3.0 * m.shear_modulus) / m.density);
 }
 
@@ -205,7 +205,7 @@ std::vector<std::string> doubt_magnitudes(const MaterialOptions& m) {
   doubt({"initial_temperature", "K", m.initial_temperature}, kind, doubts);
   doubt({"spall_strength", "Pa", m.spall_strength.value_or(0)}, kind, doubts);
   for (const std::optional<LawChoice>* choice :
-       {&m.eos, &m.strength, &m.damage, &m.viscosity, &m.heating}) {
+       {&m.eos, &m.strength, &m.damage, &m.model, &m.viscosity, &m.heating}) {
     if (!*choice || (*choice)->name == "linear" || (*choice)->name == "neo_hookean") continue;
     const LawInfo& law = catalogue()[static_cast<std::size_t>((*choice)->law)];
     for (std::size_t i = 0; i < law.parameters.size(); ++i) {
@@ -214,7 +214,7 @@ std::vector<std::string> doubt_magnitudes(const MaterialOptions& m) {
       if (!p.words && value != p.fallback) doubt({p.key, p.unit, value}, kind, doubts);
     }
   }
-  const double stiffness = m.eos ? m.shear_modulus / bulk_modulus_at_rest(m) : 1;
+  const double stiffness = m.eos || m.model ? m.shear_modulus / bulk_modulus_at_rest(m) : 1;
   if (doubts.empty() && m.shear_modulus > 0 && (stiffness < 1e-6 || stiffness > 10))
     doubts.push_back(
         fmt::format("G = {:.4g} Pa is {:.2g} of rho0 c0^2 = {:.4g} Pa: one of them is in "

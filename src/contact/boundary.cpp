@@ -35,9 +35,6 @@ void set_velocity(double* node, int axis, double value) {
   node[kVelocity + axis] = value;
 }
 
-/// p^2/m of a node, nothing where there is no mass.
-double square_over(double p, double m) { return m > 0 ? p * p / m : 0; }
-
 /// Coulomb: tangential velocities slow down by mu J_n, at most to those of the plane.
 void slow_down(double* node, int normal, const Triple& plane, double impulse_over_mass) {
   std::array<double, 3> slip{};
@@ -66,13 +63,19 @@ double BoundarySet::last_storage(int axis, int side) const {
   const auto a = static_cast<unsigned>(axis);
   if (conditions_[a][static_cast<unsigned>(side)].travels(axis))
     return geometry_.storage(position(axis, side, step_), axis);
-  return side == 0 ? 1.0 : geometry_.cells[a] + 1.0;
+  return side == 0 ? 1.0 + clearance(axis) : geometry_.cells[a] + 1.0;
+}
+
+double BoundarySet::clearance(int axis) const {
+  return conditions_[static_cast<unsigned>(axis)][0].kind == BoundaryKind::symmetry ? kClearance
+                                                                                    : 0;
 }
 
 bool BoundarySet::beyond(int axis, int side, double x) const {
   const auto a = static_cast<unsigned>(axis);
   if (side != 0) return geometry_.storage(x, axis) > last_storage(axis, 1);
-  return conditions_[a][0].travels(axis) ? x < position(axis, 0, step_) : x < geometry_.min[a];
+  if (conditions_[a][0].travels(axis)) return x < position(axis, 0, step_);
+  return x < geometry_.min[a] + clearance(axis) * geometry_.h;
 }
 
 void BoundarySet::place(Plane& plane) const {
@@ -115,7 +118,7 @@ void BoundarySet::relink(BlockGrid& grid) {
 void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
   const int dimension = geometry_.dimension, edge = block_edge(dimension);
   const int inward = plane.side == 0 ? 1 : -1;
-  for (NodeBlock& block : grid.node_blocks) {
+  for (NodeBlock& block : grid.node_blocks()) {
     const int start = block.key.i[static_cast<unsigned>(plane.axis)] * edge;
     for (int i = plane.line - 1; i <= plane.line + 1; ++i)  // a node of a column in this block
       if (i >= start && i < start + edge) block.at_boundary = true;
@@ -135,7 +138,7 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
       const auto node = [&](const std::array<int, 3>& at) {
         return grid.find_node(at, block.field);
       };
-      Column column{node(ghost), node(index), node(inner), !rigid, 0, {}, {}, {}, {}};
+      Column column{node(ghost), node(index), node(inner), !rigid, {}, 0, {}, {}, {}, {}};
       if (column.ghost == nullptr || column.inner == nullptr) continue;
       for (int a = 0, side = 0; a < dimension; ++a)
         for (const int step : {-1, 1}) {
@@ -168,7 +171,14 @@ void BoundarySet::list_held_nodes() {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   held_.clear();
-  for (double* node : nodes) held_.push_back({node, {}});
+  for (double* node : nodes) held_.push_back({node, {}, {}});
+  const auto place = [&nodes](double* node) {
+    return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
+                                    nodes.begin());
+  };
+  for (Plane& plane : planes_)
+    if (plane.condition->pushes())
+      for (Column& c : plane.columns) c.held = {place(c.ghost), place(c.plane), place(c.inner)};
 }
 
 void BoundarySet::note_gaps() {
@@ -190,13 +200,11 @@ bool BoundarySet::drives() const {
 void BoundarySet::fold() {
   for (Plane& plane : planes_) {
     if (!plane.condition->folds()) continue;
-    plane.fold_loss = 0;
     for (Column& c : plane.columns) fold_column(plane, c);
   }
 }
 
 void BoundarySet::fold_column(Plane& plane, Column& c) const {
-  double loss = 0;  // twice the kinetic energy of the odd components
   c.folded.ghost_mass = c.ghost[kMass];
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<unsigned>(a);
@@ -209,27 +217,20 @@ void BoundarySet::fold_column(Plane& plane, Column& c) const {
       c.folded.ghost_force[k] = c.ghost[kForce + a];
       c.folded.plane_momentum[k] = p_0;
       c.folded.plane_force[k] = c.plane[kForce + a];
-      loss += square_over(p, c.inner[kMass]) + square_over(p_0, c.plane[kMass]) +
-              square_over(p_g, c.ghost[kMass]);
     }
     p += sign * p_g;
     c.inner[kForce + a] += sign * c.ghost[kForce + a];
-    if (odd) {
-      loss -= square_over(p, c.inner[kMass] + c.ghost[kMass]);
-      p_0 = c.plane[kForce + a] = 0;
-    }
+    if (odd) p_0 = c.plane[kForce + a] = 0;
   }
   c.inner[kMass] += c.ghost[kMass];
   c.inner[kVolume] += c.ghost[kVolume];
   std::fill(c.ghost, c.ghost + kNodeDoubles, 0.0);
-  if (c.moves_points) plane.fold_loss += 0.5 * loss;
 }
 
 BoundaryWork BoundarySet::folded(double dt, double alpha) const {
   BoundaryWork sum;
   for (const Plane& plane : planes_) {
     if (!plane.condition->folds()) continue;
-    sum.fold_work -= (1 - alpha * alpha) * plane.fold_loss;
     for (const Column& c : plane.columns) {
       if (!c.moves_points) continue;
       const Folded& f = c.folded;
@@ -250,21 +251,24 @@ BoundaryWork BoundarySet::folded(double dt, double alpha) const {
 // meet in a corner share nodes, and joined masses.
 BoundaryWork BoundarySet::constrain() {
   BoundaryWork sum;
-  for (Held& h : held_) std::copy_n(h.node, kNodeDoubles, h.before.begin());
+  heat_.clear();
+  for (Held& h : held_) {
+    std::copy_n(h.node, kNodeDoubles, h.before.begin());
+    std::copy_n(h.node, 3, h.last.begin());
+  }
   for (Plane& plane : planes_)
     if (plane.condition->pushes()) note_fills(plane);
   for (const Plane& plane : planes_)
     if (plane.condition->pushes())
-      for (const Column& c : plane.columns) sum.columns_in_contact += hold(plane, c) ? 1 : 0;
+      for (const Column& c : plane.columns)
+        if (hold(plane, c)) note_push(plane, c, sum);
   if (sum.columns_in_contact == 0) return sum;
   for (const Held& h : held_) {
     const double m = h.before[kNodeMass];
     for (unsigned a = 0; a < 3; ++a) {
       const double old = h.before[kVelocity + a], now = h.node[kVelocity + a], change = now - old;
       sum.impulse[a] += m * change;
-      sum.work += 0.5 * m * (now * now - old * old);
-      // Forces work over the mean of v- and the final v+.
-      sum.force_correction += 0.5 * m * h.before[kChange + a] * change;
+      sum.change += 0.5 * m * (now * now - old * old);
     }
   }
   return sum;
@@ -288,6 +292,33 @@ void BoundarySet::note_fills(Plane& plane) {
       }
     }
   }
+}
+
+// A side works by its own velocity on what it pushes.
+void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& sum) {
+  double work = 0;
+  for (const std::size_t i : c.held) {
+    Held& h = held_[i];
+    const double m = h.before[kNodeMass];
+    std::array<double, 3> change{};
+    for (unsigned a = 0; a < 3; ++a) {
+      change[a] = h.node[kVelocity + a] - h.last[a];
+      h.last[a] = h.node[kVelocity + a];
+      work += m * change[a] * plane.condition->velocity[a];
+    }
+    heat_.add(h.node, m, change);
+  }
+  heat_.close(work);
+  sum.work += work;
+  sum.columns_in_contact += 1;
+}
+
+double BoundarySet::heat() {
+  const double sum = heat_.book();
+  for (const Plane& plane : planes_)
+    if (plane.condition->folds())
+      for (const Column& c : plane.columns) c.ghost[kVolume] = c.inner[kVolume];
+  return sum;
 }
 
 bool BoundarySet::touches(const Plane& plane, const Column& c) const {

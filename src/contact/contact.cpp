@@ -17,13 +17,10 @@ constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/// Forces work over the mean of v- and the final v+: an impulse changes the final v+, and so their
-/// work.
-void push(double* node, const std::array<double, 3>& impulse, ContactWork& sum) {
+void push(double* node, const std::array<double, 3>& impulse) {
   const double inverse = 1 / node[kMass];
   for (int a = 0; a < 3; ++a) {
     const double change = impulse[static_cast<unsigned>(a)] * inverse;
-    sum.force_correction += 0.5 * node[kMass] * node[kChange + a] * change;
     node[a] += change;
     node[kChange + a] += change;
   }
@@ -72,12 +69,12 @@ int ContactSet::mirrored(int axis, int index) const {
 void ContactSet::relink(const BlockGrid& grid) {
   groups_.clear();
   if (!options_.active) return;
-  const std::vector<NodeBlock>& blocks = grid.node_blocks;
+  const std::vector<NodeBlock>& blocks = grid.node_blocks();
   for (std::size_t n = 0; n < blocks.size();) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
-      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}});
+      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}, {}, {}});
     }
     n = end;
   }
@@ -116,13 +113,13 @@ ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
 
 void ContactSet::link(const BlockGrid& grid, Group& group) const {
   const int dimension = geometry_.dimension, slots = neighbour_count(dimension);
-  const NodeBlock& home = grid.node_blocks[group.first];
+  const NodeBlock& home = grid.node_blocks()[group.first];
   std::vector<int> around;
   for (int f = 0; f < group.fields; ++f)
     for (int slot = 0; slot < slots; ++slot)
-      around.push_back(
-          grid.find_node_block(shifted(home.key, slot, dimension),
-                               grid.node_blocks[group.first + static_cast<std::size_t>(f)].field));
+      around.push_back(grid.find_node_block(
+          shifted(home.key, slot, dimension),
+          grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field));
   const AxisLinks links = axis_links(home.key);
   group.sources.resize(static_cast<std::size_t>(size_ * group.fields));
   group.inverse.resize(static_cast<std::size_t>(size_));
@@ -146,7 +143,7 @@ void ContactSet::link(const BlockGrid& grid, Group& group) const {
 }
 
 void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {
-  const double* nodes = grid.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  const double* nodes = grid.nodes();  // node memory is contiguous over blocks
   scratch.filling.resize(group.sources.size());
   for (int f = 0; f < group.fields; ++f)
     for (int n = 0; n < size_; ++n) {
@@ -177,11 +174,11 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   const double loss = slip > 0 ? std::min(mu * closing / slip, 1.0) : 0.0;
   for (unsigned i = 0; i < 3; ++i)
     impulse[i] = -reduced * (closing * contact.normal[i] + loss * apart[i]);
-  sum.work -= 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
-  push(a, impulse, sum);
+  sum.change -= 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
+  push(a, impulse);
   for (double& J : impulse) J = -J;
-  push(b, impulse, sum);
-  sum.work += 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
+  push(b, impulse);
+  sum.change += 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
   sum.friction -= reduced * slip * slip * loss * (1 - 0.5 * loss);
   sum.nodes += 1;
 }
@@ -207,7 +204,7 @@ bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
 /// Normal from the points around the joint.
 void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& columns,
                         const Group& group, Contact& contact) const {
-  const NodeBlock& home = grid.node_blocks[group.first];
+  const NodeBlock& home = grid.node_blocks()[group.first];
   std::array<double, 3> at{};
   for (int a = geometry_.dimension - 1, rest = contact.joint; a >= 0; --a, rest /= padded_) {
     const auto i = static_cast<unsigned>(a);
@@ -215,7 +212,7 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& 
     at[i] = geometry_.min[i] + (index - 1) * geometry_.h;
   }
   const auto body = [&](int f) {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)].field;
+    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field;
   };
   regress_normal(grid, columns, body(contact.a), body(contact.b), at, contact.normal);
 }
@@ -224,9 +221,11 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
                                Group& group, Scratch& scratch, const RigidBodies& rigid) const {
   group.contacts.clear();
   group.shares.clear();
+  group.heat.clear();
+  group.rigid_pushes.clear();
   bool filled = false;
   const auto block = [&](int f) -> const NodeBlock& {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   for (int n = 0; n < kBlockNodes; ++n) {
     const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
@@ -250,18 +249,56 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
   }
 }
 
+// All pairs of one node, and what they changed of each field.
+template <class Touch>
+void ContactSet::exchange_node(BlockGrid& grid, Group& group, std::size_t first, std::size_t end,
+                               const Touch& touch) const {
+  std::vector<Before>& fields = scratch_[static_cast<unsigned>(thread_index())].before;
+  fields.clear();
+  for (std::size_t c = first; c < end; ++c) {
+    const Contact& contact = group.contacts[c];
+    for (const int f : {contact.a, contact.b}) {
+      double* node = grid.node_blocks()[group.first + static_cast<std::size_t>(f)].nodes +
+                     kNodeDoubles * contact.node;
+      if (std::none_of(fields.begin(), fields.end(),
+                       [node](const Before& b) { return b.node == node; }))
+        fields.push_back({node, {node[0], node[1], node[2]}});
+    }
+  }
+  for (int sweep = 0; sweep < (end - first > 1 ? kSweeps : 1); ++sweep)
+    for (std::size_t c = first; c < end; ++c) touch(group.contacts[c]);
+  bool any = false;
+  for (const Before& b : fields) {
+    std::array<double, 3> change{};
+    for (unsigned a = 0; a < 3; ++a) change[a] = b.node[a] - b.velocity[a];
+    if (square(change.data()) == 0) continue;  // not pushed, or rigid
+    group.heat.add(b.node, b.node[kMass], change);
+    any = true;
+  }
+  any =
+      any || (!group.rigid_pushes.empty() && group.rigid_pushes.back().loss == group.heat.count());
+  if (any) group.heat.close();
+}
+
+double ContactSet::heat() {
+  heats_.resize(groups_.size());
+  for_each(groups_.size(), [&](std::size_t g) { heats_[g] = groups_[g].heat.book(); });
+  double sum = 0;
+  for (const double heat : heats_) sum += heat;
+  return sum;
+}
+
 ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
                                        const RigidBodies& rigid) const {
   ContactWork sum;
   const auto block = [&](int f) -> NodeBlock& {
-    return grid.node_blocks[group.first + static_cast<std::size_t>(f)];
+    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   const auto touch = [&](const Contact& c) {
     const bool a_is_rigid = rigid.find(block(c.a).field) != nullptr;
     if (a_is_rigid || rigid.find(block(c.b).field)) {
       const Strike strike = strike_of(grid, group, c, a_is_rigid);
-      return exchange(strike, twists_[static_cast<std::size_t>(strike.body)],
-                      share_of(group, strike.body), sum);
+      return exchange(strike, twists_[static_cast<std::size_t>(strike.body)], group, sum);
     }
     exchange(block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
              options_.friction_of(block(c.a).field, block(c.b).field), sum);
@@ -270,8 +307,7 @@ ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
     while (end < group.contacts.size() && group.contacts[end].node == group.contacts[first].node)
       ++end;
     const double before = sum.nodes;
-    for (int sweep = 0; sweep < (end - first > 1 ? kSweeps : 1); ++sweep)
-      for (std::size_t c = first; c < end; ++c) touch(group.contacts[c]);
+    exchange_node(grid, group, first, end, touch);
     if (sum.nodes == before) continue;
     for (std::size_t c = first; c < end; ++c)
       for (const int f : {group.contacts[c].a, group.contacts[c].b})

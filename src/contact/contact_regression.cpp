@@ -51,14 +51,13 @@ void collect(const BlockGrid& grid, const PointColumns& columns, int body,
       for (key.i[2] = first.i[2]; key.i[2] <= last.i[2]; ++key.i[2]) {
         const int p = grid.find_patch(key, body);
         if (p < 0) continue;
-        const Patch& patch = grid.patches[static_cast<std::size_t>(p)];
-        for (int i = 0; i < patch.count; ++i) {
-          const double* point =
-              patch.records.data() + static_cast<std::ptrdiff_t>(i / 8) * columns.stride + i % 8;
-          const double* x = point + columns.position;
-          Sample s{{0, 0, 0, 1}, label, point[columns.mass] / point[columns.density]};
+        const PointStore& points = grid.patches()[static_cast<std::size_t>(p)].points;
+        for (int i = 0; i < points.count(); ++i) {
+          const double volume = points.at(columns.mass, i) / points.at(columns.density, i);
+          Sample s{{0, 0, 0, 1}, label, volume};
           for (int a = 0; a < dimension; ++a) {
-            s.at[a] = (x[8 * a] - node[static_cast<unsigned>(a)]) * geometry.inv_h;
+            const double x = points.at(columns.position + kLanes * a, i);
+            s.at[a] = (x - node[static_cast<unsigned>(a)]) * geometry.inv_h;
             s.weight *= spline(s.at[a]);
           }
           if (s.weight > 0) samples.push_back(s);

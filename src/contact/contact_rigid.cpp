@@ -51,8 +51,8 @@ ContactSet::RigidShare& ContactSet::share_of(Group& group, int body) {
 
 ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& group,
                                          const Contact& contact, bool a_is_rigid) const {
-  const NodeBlock& a = grid.node_blocks[group.first + static_cast<std::size_t>(contact.a)];
-  const NodeBlock& b = grid.node_blocks[group.first + static_cast<std::size_t>(contact.b)];
+  const NodeBlock& a = grid.node_blocks()[group.first + static_cast<std::size_t>(contact.a)];
+  const NodeBlock& b = grid.node_blocks()[group.first + static_cast<std::size_t>(contact.b)];
   const NodeBlock &body = a_is_rigid ? a : b, &other = a_is_rigid ? b : a;
   Strike out{other.nodes + kNodeDoubles * contact.node,
              body.field,
@@ -82,7 +82,7 @@ void ContactSet::probe(const Strike& strike, const RigidTwist& twist, RigidShare
   share.stiffness += mass * A.transpose() * P * A;
 }
 
-void ContactSet::exchange(const Strike& strike, const RigidTwist& twist, RigidShare& share,
+void ContactSet::exchange(const Strike& strike, const RigidTwist& twist, Group& group,
                           ContactWork& sum) const {
   const Meeting m = meet(strike.node, strike.normal, strike.place, strike.friction, twist);
   if (!(m.closing > 0)) return;
@@ -90,15 +90,18 @@ void ContactSet::exchange(const Strike& strike, const RigidTwist& twist, RigidSh
   const double mass = node[kMass];
   Eigen::Map<Vector3d> v{node}, dv{node + kChange};
   const Vector3d change = m.closing * m.normal + m.loss * m.slip;
-  sum.work -= 0.5 * mass * v.squaredNorm();
-  sum.force_correction += 0.5 * mass * dv.dot(change);
+  sum.change -= 0.5 * mass * v.squaredNorm();
   v += change;
   dv += change;
-  sum.work += 0.5 * mass * v.squaredNorm();
+  sum.change += 0.5 * mass * v.squaredNorm();
   sum.friction -= mass * m.slip.squaredNorm() * m.loss * (1 - 0.5 * m.loss);
   sum.nodes += 1;
   const Vector3d reaction = -mass * change;
-  share.sum.add({reaction, m.arm.cross(reaction), -reaction.dot(m.velocity)});
+  share_of(group, strike.body)
+      .sum.add({reaction, m.arm.cross(reaction), -reaction.dot(m.velocity)});
+  group.rigid_pushes.push_back({group.heat.count(), strike.body,
+                                Vector3d{strike.place[0], strike.place[1], strike.place[2]},
+                                -reaction});
 }
 
 /// Velocities that the nodes will meet: those of driven bodies, and those that free ones will have
@@ -115,8 +118,8 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
   for_each(groups_.size(), [&](std::size_t g) {
     Group& group = groups_[g];
     for (const Contact& c : group.contacts) {
-      const int a = grid.node_blocks[group.first + static_cast<std::size_t>(c.a)].field,
-                b = grid.node_blocks[group.first + static_cast<std::size_t>(c.b)].field;
+      const int a = grid.node_blocks()[group.first + static_cast<std::size_t>(c.a)].field,
+                b = grid.node_blocks()[group.first + static_cast<std::size_t>(c.b)].field;
       const RigidBody* body = rigid.find(a) ? rigid.find(a) : rigid.find(b);
       if (!body || !body->options().free) continue;
       const Strike strike = strike_of(grid, group, c, rigid.find(a) != nullptr);
@@ -143,14 +146,22 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
   }
 }
 
-void ContactSet::hand_over(RigidBodies& rigid, ContactWork& sum) const {
+// A free body works by the mean of its velocities before and after what it received.
+void ContactSet::hand_over(RigidBodies& rigid, ContactWork& sum) {
   for (RigidBody& body : rigid.all()) {
+    const RigidTwist before = body.twist();
     RigidImpulse all;
     for (const Group& group : groups_)
       for (const RigidShare& share : group.shares)
         if (share.body == body.options().body) all.add(share.sum);
-    sum.work += body.take(all);
+    sum.change += body.take(all);
     if (!body.options().free) sum.driven += all.work;
+    const RigidTwist after = body.twist();
+    for (Group& group : groups_)
+      for (const RigidPush& push : group.rigid_pushes)
+        if (push.body == body.options().body)
+          group.heat.add_work(push.loss,
+                              0.5 * push.impulse.dot(before.at(push.place) + after.at(push.place)));
   }
 }
 

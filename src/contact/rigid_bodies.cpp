@@ -28,19 +28,19 @@ const RigidBody* RigidBodies::find(int body) const {
 
 void RigidBodies::write_velocities(BlockGrid& grid,
                                    const std::vector<PointColumns>& columns) const {
-  for (Patch& patch : grid.patches) {
+  for (Patch& patch : grid.patches()) {
     const RigidBody* body = find(patch.body);
     if (!body) continue;
     const PointColumns& c = columns[static_cast<std::size_t>(patch.body)];
-    for (int i = 0; i < patch.count; ++i) {
+    for (int i = 0; i < patch.points.count(); ++i) {
       Eigen::Vector3d x = Eigen::Vector3d::Zero();
       for (int a = 0; a < grid.geometry().dimension; ++a)
-        x[a] = component(patch, c.stride, c.position + kLanes * a, i);
+        x[a] = patch.points.at(c.position + kLanes * a, i);
       const Eigen::Vector3d v = body->twist().at(x);
       for (int a = 0; a < grid.geometry().dimension; ++a)
-        component(patch, c.stride, c.velocity + kLanes * a, i) = v[a];
+        patch.points.at(c.velocity + kLanes * a, i) = v[a];
     }
-    pad(patch, c.stride, c.mass);
+    patch.points.pad(c.mass);
   }
 }
 
@@ -63,7 +63,7 @@ void RigidBodies::rewind() {
 
 void RigidBodies::finish(const BlockGrid& grid, double dt) {
   for (RigidBody& body : bodies_) body.finish(dt);
-  sides_.assign(grid.patches.size(), 0);
+  sides_.assign(grid.patches().size(), 0);
 }
 
 void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry,
@@ -73,16 +73,16 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
   PatchResult& result = patch.result;
   result.kinetic = result.max_rate = 0;
   result.limiter = 1;
-  std::fill(leavers, leavers + patch.groups(), static_cast<unsigned char>(0));
-  for (int i = 0; i < patch.count; ++i) {
+  std::fill(leavers, leavers + patch.points.groups(), static_cast<unsigned char>(0));
+  for (int i = 0; i < patch.points.count(); ++i) {
     Eigen::Vector3d X = Eigen::Vector3d::Zero();
     for (int a = 0; a < dimension; ++a)
-      X[a] = component(patch, c.stride, body.options().reference + kLanes * a, i);
+      X[a] = patch.points.at(body.options().reference + kLanes * a, i);
     const Eigen::Vector3d x = body.position(X), v = body.twist().at(x);
     bool outside = false;
     for (int a = 0; a < dimension; ++a) {
-      component(patch, c.stride, c.position + kLanes * a, i) = x[a];
-      component(patch, c.stride, c.velocity + kLanes * a, i) = v[a];
+      patch.points.at(c.position + kLanes * a, i) = x[a];
+      patch.points.at(c.velocity + kLanes * a, i) = v[a];
       const double s = geometry.storage(x[a], a);
       const bool low = s<1, high = s> geometry.cells[static_cast<unsigned>(a)] + 1.0;
       outside = outside || low || high;
@@ -93,7 +93,7 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
         result.limiting_point = i;
       }
     }
-    result.kinetic += 0.5 * component(patch, c.stride, c.mass, i) * v.squaredNorm();
+    result.kinetic += 0.5 * patch.points.at(c.mass, i) * v.squaredNorm();
     if (outside || block_of(geometry, x.data()) != patch.key)
       leavers[i / kLanes] = static_cast<unsigned char>(leavers[i / kLanes] | 1U << (i % kLanes));
   }
@@ -107,7 +107,7 @@ void RigidBodies::throw_collisions(const BlockGrid& grid) const {
         "rigid body '{}' has run into the {} side of the domain across grid axis {}, which carries "
         "a condition; a rigid body meets deformable bodies only: enlarge grid.box, or make that "
         "side open",
-        find(grid.patches[p].body)->options().name, side % 2 == 0 ? "lower" : "upper", side / 2));
+        find(grid.patches()[p].body)->options().name, side % 2 == 0 ? "lower" : "upper", side / 2));
   }
 }
 

@@ -32,15 +32,13 @@ Matrix3d cross_matrix(const Vector3d& w) {
 template <class Visit>
 void for_points(const BlockGrid& grid, const RigidOptions& options, const PointColumns& c,
                 const Visit& visit) {
-  for (const Patch& patch : grid.patches) {
+  for (const Patch& patch : grid.patches()) {
     if (patch.body != options.body) continue;
-    for (int i = 0; i < patch.count; ++i) {
-      const double* record = patch.records.data() + static_cast<std::size_t>(i / kLanes) *
-                                                        static_cast<std::size_t>(c.stride);
+    for (int i = 0; i < patch.points.count(); ++i) {
       Vector3d X = Vector3d::Zero();
       for (int a = 0; a < grid.geometry().dimension; ++a)
-        X[a] = record[options.reference + kLanes * a + i % kLanes];
-      visit(record[c.mass + i % kLanes], X);
+        X[a] = patch.points.at(options.reference + kLanes * a, i);
+      visit(patch.points.at(c.mass, i), X);
     }
   }
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "krater/points/layout.hpp"
-
 namespace krater {
 
 namespace {
@@ -25,26 +23,6 @@ constexpr std::array<Offset, 27> plane_offsets = neighbour_offsets(2),
                                  space_offsets = neighbour_offsets(3);
 
 }  // namespace
-
-void copy_point(Patch& patch, int stride, int from, int to) {
-  for (int k = 0; k < stride; k += kLanes)
-    component(patch, stride, k, to) = component(patch, stride, k, from);
-}
-
-void append(Patch& patch, const double* point, int stride) {
-  const int i = patch.count++;
-  patch.settled = patch.tile_current = patch.tile_ahead = patch.steady = false;
-  patch.records.reserve(static_cast<std::size_t>(patch.groups()) *
-                        static_cast<std::size_t>(stride));
-  for (int k = 0; k < stride; k += kLanes) component(patch, stride, k, i) = point[k / kLanes];
-}
-
-void pad(Patch& patch, int stride, int mass_offset) {
-  for (int i = patch.count; i < kLanes * patch.groups(); ++i) {
-    copy_point(patch, stride, patch.count - 1, i);
-    component(patch, stride, mass_offset, i) = 0;
-  }
-}
 
 BlockKey shifted(const BlockKey& key, int slot, int dimension) {
   const Offset& offset =
@@ -96,14 +74,26 @@ double* BlockGrid::find_node(const std::array<int, 3>& storage_index, int field)
     local = local * edge + (i - block * edge);
   }
   const int n = find_node_block(key, field);
-  return n < 0 ? nullptr : node_blocks[static_cast<std::size_t>(n)].nodes + kNodeDoubles * local;
+  return n < 0 ? nullptr : node_blocks_[static_cast<std::size_t>(n)].nodes + kNodeDoubles * local;
+}
+
+Patch& BlockGrid::add_patch(const BlockKey& key, int body, int stride) {
+  Patch& patch = patches_.emplace_back();
+  patch.key = key;
+  patch.body = body;
+  patch.points = PointStore{stride};
+  return patch;
+}
+
+void BlockGrid::drop_patches(int body) {
+  std::erase_if(patches_, [body](const Patch& p) { return body < 0 || p.body == body; });
 }
 
 void BlockGrid::rebuild(bool drop_empty) {
-  if (drop_empty) std::erase_if(patches, [](const Patch& p) { return p.count == 0; });
-  if (!std::is_sorted(patches.begin(), patches.end(), before))
-    std::sort(patches.begin(), patches.end(), before);
-  for (Patch& p : patches)
+  if (drop_empty) std::erase_if(patches_, [](const Patch& p) { return p.points.empty(); });
+  if (!std::is_sorted(patches_.begin(), patches_.end(), before))
+    std::sort(patches_.begin(), patches_.end(), before);
+  for (Patch& p : patches_)
     p.field = static_cast<std::size_t>(p.body) < field_of_body_.size()
                   ? field_of_body_[static_cast<std::size_t>(p.body)]
                   : 0;
@@ -113,60 +103,60 @@ void BlockGrid::rebuild(bool drop_empty) {
 
 void BlockGrid::make_node_blocks() {
   const int dimension = geometry_.dimension, corners = corner_count(dimension);
-  node_blocks.clear();
-  node_index_.clear(patches.size() * static_cast<std::size_t>(corners));
-  for (const Patch& patch : patches)
+  node_blocks_.clear();
+  node_index_.clear(patches_.size() * static_cast<std::size_t>(corners));
+  for (const Patch& patch : patches_)
     for (int c = 0; c < corners; ++c) {
       const BlockKey key = at_corner(patch.key, c, 1, dimension);
       if (node_index_.find(key, patch.field) >= 0) continue;
-      node_index_.insert(key, patch.field, static_cast<int>(node_blocks.size()));
-      NodeBlock& block = node_blocks.emplace_back();
+      node_index_.insert(key, patch.field, static_cast<int>(node_blocks_.size()));
+      NodeBlock& block = node_blocks_.emplace_back();
       block.key = key;
       block.field = patch.field;
     }
-  std::sort(node_blocks.begin(), node_blocks.end(), [](const NodeBlock& a, const NodeBlock& b) {
+  std::sort(node_blocks_.begin(), node_blocks_.end(), [](const NodeBlock& a, const NodeBlock& b) {
     return a.key != b.key ? a.key < b.key : a.field < b.field;
   });
   constexpr std::size_t per_block = kBlockNodes * kNodeDoubles;
-  node_memory_.reserve(node_blocks.size() * per_block);
-  node_index_.clear(node_blocks.size());
-  for (std::size_t n = 0; n < node_blocks.size(); ++n) {
-    node_blocks[n].nodes = node_memory_.data() + n * per_block;
-    node_index_.insert(node_blocks[n].key, node_blocks[n].field, static_cast<int>(n));
+  node_memory_.reserve(node_blocks_.size() * per_block);
+  node_index_.clear(node_blocks_.size());
+  for (std::size_t n = 0; n < node_blocks_.size(); ++n) {
+    node_blocks_[n].nodes = node_memory_.data() + n * per_block;
+    node_index_.insert(node_blocks_[n].key, node_blocks_[n].field, static_cast<int>(n));
   }
 }
 
-// The tiles of a node block stand in the order of their patches; that order fixes its sums.
+// The tiles of a node block stand in the order of their patches_; that order fixes its sums.
 void BlockGrid::link_patches() {
   const int dimension = geometry_.dimension, corners = corner_count(dimension);
-  patch_index_.clear(patches.size());
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    patch_index_.insert(patches[p].key, patches[p].body, static_cast<int>(p));
-  for (Patch& patch : patches) {
-    patch.tile.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles);
+  patch_index_.clear(patches_.size());
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    patch_index_.insert(patches_[p].key, patches_[p].body, static_cast<int>(p));
+  for (Patch& patch : patches_) {
+    patch.tile.nodes.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles);
     patch.beta.reserve(kBlockNodes);
     for (int c = 0; c < corners; ++c) {
       const int n = find_node_block(at_corner(patch.key, c, 1, dimension), patch.field);
-      patch.node_blocks[static_cast<std::size_t>(c)] = n;
-      ++node_blocks[static_cast<std::size_t>(n)].tiles;
+      patch.links.node_blocks[static_cast<std::size_t>(c)] = n;
+      ++node_blocks_[static_cast<std::size_t>(n)].tiles;
     }
     for (int s = 0; s < neighbour_count(dimension); ++s)
-      patch.neighbours[static_cast<std::size_t>(s)] =
+      patch.links.neighbours[static_cast<std::size_t>(s)] =
           find_patch(shifted(patch.key, s, dimension), patch.body);
   }
   int first = 0;
-  for (NodeBlock& block : node_blocks) {
+  for (NodeBlock& block : node_blocks_) {
     block.first_tile = first;
     first += block.tiles;
     block.tiles = 0;
   }
-  tile_refs.resize(static_cast<std::size_t>(first));
-  for (std::size_t p = 0; p < patches.size(); ++p)
+  tile_refs_.resize(static_cast<std::size_t>(first));
+  for (std::size_t p = 0; p < patches_.size(); ++p)
     for (int c = 0; c < corners; ++c) {
-      NodeBlock& block = node_blocks[static_cast<std::size_t>(
-          patches[p].node_blocks[static_cast<std::size_t>(c)])];
-      tile_refs[static_cast<std::size_t>(block.first_tile + block.tiles++)] = {static_cast<int>(p),
-                                                                               c};
+      NodeBlock& block = node_blocks_[static_cast<std::size_t>(
+          patches_[p].links.node_blocks[static_cast<std::size_t>(c)])];
+      tile_refs_[static_cast<std::size_t>(block.first_tile + block.tiles++)] = {static_cast<int>(p),
+                                                                                c};
     }
 }
 

@@ -5,18 +5,17 @@
 
 namespace krater {
 
-void Audit::book_step(const StepEnergies& e, const Constraint& walls, const Constraint& contact) {
-  const double correction = walls.correction + contact.correction;
-  const double work =
-      e.grid_after - e.grid_before + correction - step_external;  // of the internal forces
-  transfer_in += e.kinetic - e.grid_before;
-  internal_work += work;
+void Audit::book_step(const StepHeat& heat) {
   external_work += step_external;
-  wall_work += walls.work - walls.correction;
-  contact_work += contact.work - contact.correction;
-  transfer_out += e.grid_after + walls.work + contact.work - kinetic;
-  time_centring += -work - (internal - e.internal);
   step_external = 0;
+  transfer_loss += heat.given - heat.contact - heat.walls;
+  transfer_gain += heat.taken;
+  contact_heat += heat.contact;
+  wall_heat += heat.walls;
+  numerical_heat += heat.numerical;
+  carried = heat.carried;
+  largest_carried = std::max(largest_carried, -carried);
+  carriers += heat.carriers;
 }
 
 void Audit::book_events(const Ledger& ledger) {

@@ -14,9 +14,24 @@ const LawInfo& info(const PlannedLaw& law) {
   return catalogue().at(static_cast<std::size_t>(law.law));
 }
 
+/// What laws ask of stages that are not theirs, known before the first stage is made.
+struct Needs {
+  bool keeps_F;  ///< a law, the rate, or who made the layout wants the deformation gradient
+  bool dilates;  ///< voids of plastic flow, and a limit of tension with them
+};
+
+Needs needs_of(const MaterialPlan& plan, const Layout& layout) {
+  const bool strong = plan.strength.law >= 0;
+  return {.keeps_F = (strong && info(plan.strength).whole_stress) ||
+                     plan.rate == Rate::green_naghdi ||
+                     layout.find(field::DeformationGradient::info.name) != nullptr,
+          .dilates = strong && info(plan.strength).dilates};
+}
+
 struct Assembler {
   const StageFactory& factory;
   const MaterialPlan& plan;
+  const Needs needs;
   Layout& layout;
   std::vector<NamedStage> stages;
 
@@ -56,7 +71,8 @@ struct Assembler {
                             .rate = plan.rate,
                             .integrity = integrity(),
                             .degrades = degrades(),
-                            .degrade = plan.degrade},
+                            .degrade = plan.degrade,
+                            .dilates = needs.dilates},
                            layout));
   }
 
@@ -65,16 +81,37 @@ struct Assembler {
     const std::string strength = "strength: " + info(plan.strength).name,
                       damage = damaged ? "damage: " + info(plan.damage).name : "";
     add_part(Part::start, plan.strength, "start of the step");
-    add_part(Part::trial, {}, std::string{"rate: "} + kRateNames[static_cast<int>(plan.rate)]);
+    add_part(Part::trial, {}, rate_name());
     if (damaged && plan.coupling == Coupling::rate) {
       add_part(Part::flow_stress, plan.strength, strength + " (flow stress)");
       add_part(Part::growth, plan.damage, damage);
       add_part(Part::rate_return, plan.strength, strength);
     } else {
-      if (yields) add_part(Part::plastic_return, plan.strength, strength);
+      if (yields || damaged) add_part(Part::plastic_return, plan.strength, strength);
       if (damaged) add_part(Part::growth, plan.damage, damage);
     }
     add_part(Part::carried, {}, "carried stress");
+  }
+
+  /// The strength's stages stand from `first` on; they have declared what the deviator needs.
+  void add_cohesion(std::ptrdiff_t first) {
+    if (plan.eos.law < 0) return;
+    const StagesAround around =
+        factory.cohesion(plan.eos.law, plan.eos.values, plan.constants, layout);
+    if (around.before == nullptr) return;
+    stages.insert(stages.begin() + first,
+                  {"effective deviator", std::unique_ptr<const Stage>{around.before}});
+    add("cohesion", around.after);
+  }
+
+  std::string rate_name() const {
+    return std::string{"rate: "} + kRateNames[static_cast<int>(plan.rate)];
+  }
+
+  void add_model() {
+    add_part(Part::start, plan.model, "start of the step");
+    add_part(Part::trial, {}, rate_name());
+    add_law(plan.model);
   }
 
   void add_eos() {
@@ -84,19 +121,19 @@ struct Assembler {
                      .values = plan.eos.values,
                      .constants = plan.constants,
                      .tension = tension(),
-                     .spall_strength = plan.spall_strength},
+                     .spall_strength = plan.spall_strength,
+                     .dilates = needs.dilates},
                     layout));
   }
 
   void add_heating() {
     if (plan.heating.law < 0 || !info(plan.heating).needs_eos) return add_law(plan.heating);
-    const bool limited = layout.find(field::VoidVolume::info.name) != nullptr;
     add("heating: " + info(plan.heating).name,
         factory.energy_heating({.eos = plan.eos.law,
                                 .eos_values = plan.eos.values,
                                 .c_v = plan.heating.values[0],
                                 .constants = plan.constants,
-                                .carries = carries() || limited,
+                                .carries = carries() || needs.dilates,
                                 .degrades = degrades()},
                                layout));
   }
@@ -106,19 +143,19 @@ struct Assembler {
 
 std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialPlan& plan,
                                     Layout& layout) {
-  Assembler all{factory, plan, layout, {}};
+  Assembler all{factory, plan, needs_of(plan, layout), layout, {}};
   const bool split = all.integrity() != Integrity::sound || plan.rate != Rate::truesdell;
-  // Who needs F must have declared it before the kinematics stage looks for it.
-  const bool whole_stress = plan.strength.law >= 0 && info(plan.strength).whole_stress;
-  if (whole_stress || plan.rate == Rate::green_naghdi)
-    layout.state<field::DeformationGradient>(0.0, "kinematics");
-  all.add("kinematics", factory.kinematics(layout));
+  all.add("kinematics", factory.kinematics(all.needs.keeps_F, layout));
   all.add_law(plan.viscosity);
-  if (split && plan.strength.law >= 0) {
+  const auto first = std::ssize(all.stages);
+  if (plan.model.law >= 0) {
+    all.add_model();
+  } else if (split && plan.strength.law >= 0) {
     all.add_split_deviator();
   } else {
     all.add_law(plan.strength);
   }
+  if (plan.strength.law >= 0) all.add_cohesion(first);
   all.add_eos();
   all.add_heating();
   all.add("signal speed", factory.signal_speed(plan.q_lin, plan.q_quad, layout));

@@ -14,67 +14,59 @@ LawInfo describe() {
                .parameters = {},
                .equation = Law::equation,
                .reference = Law::reference,
+               .columns = {},
                .needs_shear_modulus = false,
                .whole_stress = false,
                .yields = Yielding<Law>,
+               .dilates = Dilatant<Law>,
+               .fails = Fails<Law>,
+               .needs_flow = Law::family == Family::damage && needs_flow<Law>,
                .needs_eos = false};
   if constexpr (parameter_count < Law >> 0) {
     for (const Parameter<Law>& p : Law::parameters) info.parameters.push_back(p.info);
   }
-  if constexpr (requires { Law::needs_shear_modulus; }) {
+  if constexpr (OwnsState<Law>)
+    info.columns.assign(Law::State::infos.begin(), Law::State::infos.end());
+  if constexpr (requires { Law::needs_shear_modulus; })
     info.needs_shear_modulus = Law::needs_shear_modulus;
-  }
   if constexpr (requires { Law::needs_eos; }) info.needs_eos = Law::needs_eos;
   if constexpr (requires { Law::whole_stress; }) info.whole_stress = Law::whole_stress;
   return info;
 }
 
-template <class Law>
-const char* problem_of(const double* values, const MaterialConstants& constants) {
-  if constexpr (requires(const Law& law) { law.problem(); }) {
-    return make_law<Law>(values, constants).problem();
-  } else {
-    return nullptr;
-  }
-}
+/// What a law says of parameters and constants; laws that say nothing have no function of the name.
+struct LawAnswers {
+  const char* problem = nullptr;
+  bool degrades = false;
+  std::optional<double> thermal_energy = {}, sound_speed = {};
+};
 
 template <class Law>
-bool degrades_of(const double* values, const MaterialConstants& constants) {
-  if constexpr (requires(const Law& law) { law.degrades(); }) {
-    return make_law<Law>(values, constants).degrades();
-  } else {
-    return false;
-  }
+LawAnswers ask(const double* values, const MaterialConstants& constants) {
+  const Law law = make_law<Law>(values, constants);
+  LawAnswers answers;
+  if constexpr (requires { law.problem(); }) answers.problem = law.problem();
+  if constexpr (requires { law.degrades(); }) answers.degrades = law.degrades();
+  if constexpr (requires { law.thermal_energy(); }) answers.thermal_energy = law.thermal_energy();
+  if constexpr (Law::family == Family::eos || Law::family == Family::model)
+    answers.sound_speed = law.c0;
+  return answers;
 }
 
-template <class Law>
-std::optional<double> thermal_energy_of(const double* values, const MaterialConstants& constants) {
-  if constexpr (requires(const Law& law) { law.thermal_energy(); }) {
-    return make_law<Law>(values, constants).thermal_energy();
-  } else {
-    return std::nullopt;
-  }
-}
-
-using ThermalEnergy = std::optional<double> (*)(const double*, const MaterialConstants&);
-using Degrades = bool (*)(const double*, const MaterialConstants&);
-using Problem = const char* (*)(const double*, const MaterialConstants&);
+using Ask = LawAnswers (*)(const double*, const MaterialConstants&);
 
 template <class... Laws>
 std::vector<LawInfo> describe_all(LawList<Laws...>) {
   return {describe<Laws>()...};
 }
 template <class... Laws>
-std::vector<Problem> problems_of(LawList<Laws...>) {
-  return {&problem_of<Laws>...};
+std::vector<Ask> ask_all(LawList<Laws...>) {
+  return {&ask<Laws>...};
 }
-template <class... Laws>
-std::vector<ThermalEnergy> thermal_energies(LawList<Laws...>) {
-  return {&thermal_energy_of<Laws>...};
-}
-template <class... Laws>
-std::vector<Degrades> all_degrades(LawList<Laws...>) {
-  return {&degrades_of<Laws>...};
+
+LawAnswers answers_of(int law, const double* values, const MaterialConstants& constants) {
+  static const std::vector<Ask> laws = ask_all(AllLaws{});
+  return laws.at(static_cast<std::size_t>(law))(values, constants);
 }
 
 }  // namespace
@@ -113,19 +105,21 @@ std::vector<std::string> parameter_words(const ParameterInfo& info) {
 }
 
 bool law_degrades(int law, const double* values, const MaterialConstants& constants) {
-  static const std::vector<Degrades> degrades = all_degrades(AllLaws{});
-  return degrades.at(static_cast<std::size_t>(law))(values, constants);
+  return answers_of(law, values, constants).degrades;
 }
 
 std::optional<double> thermal_energy_at_start(int law, const double* values,
                                               const MaterialConstants& constants) {
-  static const std::vector<ThermalEnergy> energies = thermal_energies(AllLaws{});
-  return energies.at(static_cast<std::size_t>(law))(values, constants);
+  return answers_of(law, values, constants).thermal_energy;
+}
+
+std::optional<double> sound_speed_at_rest(int law, const double* values,
+                                          const MaterialConstants& constants) {
+  return answers_of(law, values, constants).sound_speed;
 }
 
 const char* law_problem(int law, const double* values, const MaterialConstants& constants) {
-  static const std::vector<Problem> problems = problems_of(AllLaws{});
-  return problems.at(static_cast<std::size_t>(law))(values, constants);
+  return answers_of(law, values, constants).problem;
 }
 
 }  // namespace krater

@@ -22,20 +22,20 @@ Stage* stage_of(LawList<Laws...>, int law, const Make& make) {
   return made;
 }
 
-inline bool has_voids(const Layout& layout) {
-  return layout.find(field::VoidVolume::info.name) != nullptr;
-}
-inline bool has_deformation_gradient(const Layout& layout) {
-  return layout.find(field::DeformationGradient::info.name) != nullptr;
-}
-
 // stages_strength_hot.cpp: the deviator in one stage.
 Stage* make_strength(int law, const double* values, const MaterialConstants& constants,
                      Layout& layout);
+// stages_model_hot.cpp: strength, pressure and damage in one.
+Stage* make_model(int law, const double* values, const MaterialConstants& constants,
+                  Layout& layout);
 // stages_parts_hot.cpp: the deviator in several stages.
 Stage* make_part(const PartRequest& request, Layout& layout);
 // stages_eos_hot.cpp: the pressure, and the temperature that follows from it.
 Stage* make_eos(const EosRequest& request, Layout& layout);
+StagesAround make_cohesion(int eos, const double* values, const MaterialConstants& constants,
+                           Layout& layout);
 Stage* make_energy_heating(const EnergyHeatingRequest& request, Layout& layout);
+Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& constants,
+                       Layout& layout);
 
 }  // namespace krater::inline KRATER_ISA

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pressure, and temperature from the energy (compiled once per instruction-set level).
+#include "krater/materials/stages/cohesion_stage.hpp"
 #include "krater/materials/stages/energy_heating_stage.hpp"
 #include "krater/materials/stages/eos_stage.hpp"
+#include "krater/materials/stages/heat_floor_stage.hpp"
 #include "materials/stage_makers.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -11,7 +13,7 @@ namespace {
 template <class Law, Tension tension>
 Stage* make_tensile(const EosRequest& r, Layout& layout) {
   const Law law = make_law<Law>(r.values, r.constants);
-  if (has_voids(layout)) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
+  if (r.dilates) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
   return new EosStage<Law, tension, false>{law, r.spall_strength, layout};
 }
 
@@ -20,6 +22,13 @@ Stage* make_heating_of(const Law& law, const EnergyHeatingRequest& r, Layout& la
   if (r.carries)
     return new EnergyHeatingStage<Law, true>{law, r.c_v, r.degrades, r.constants, layout};
   return new EnergyHeatingStage<Law, false>{law, r.c_v, r.degrades, r.constants, layout};
+}
+
+template <class Law>
+Stage* make_floor_of(const Law& law, Layout& layout) {
+  const double rho = 1.2 * law.rho0;  // where a law of tension alone would differ
+  if (!(split_at(law, rho, 1.0 / rho, energy_at_start(law)).thermal > 0.0)) return nullptr;
+  return new HeatFloorStage<Law>{law, layout};
 }
 
 }  // namespace
@@ -37,6 +46,36 @@ Stage* make_eos(const EosRequest& r, Layout& layout) {
       }
     }
     return nullptr;
+  });
+}
+
+StagesAround make_cohesion(int eos, const double* values, const MaterialConstants& constants,
+                           Layout& layout) {
+  StagesAround around;
+  around.after = stage_of(AllLaws{}, eos, [&]<class Law>() -> Stage* {
+    if constexpr (Parting<Law>) {
+      const double rho0 = make_law<Law>(values, constants).rho0;
+      around.before = new EffectiveCohesionStage{rho0, layout};
+      return new CarriedCohesionStage{rho0, layout};
+    }
+    return nullptr;
+  });
+  return around;
+}
+
+Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& constants,
+                       Layout& layout) {
+  return stage_of(AllLaws{}, eos, [&]<class Law>() -> Stage* {
+    if constexpr (Law::family == Family::eos) {
+      const Law law = make_law<Law>(values, constants);
+      if constexpr (requires { law.solid; }) {
+        return make_floor_of(law.solid, layout);
+      } else {
+        return make_floor_of(law, layout);
+      }
+    } else {
+      return nullptr;
+    }
   });
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 Stage* make(int index, const double* values, const MaterialConstants& constants, Layout& layout) {
   if (Stage* strength = make_strength(index, values, constants, layout)) return strength;
+  if (Stage* model = make_model(index, values, constants, layout)) return model;
   return stage_of(AllLaws{}, index, [&]<class Law>() -> Stage* {
     if constexpr (Law::family == Family::viscosity) {
       return new ViscosityStage<Law>{make_law<Law>(values, constants), layout};
@@ -25,8 +26,8 @@ Stage* make(int index, const double* values, const MaterialConstants& constants,
   });
 }
 
-Stage* make_kinematics(Layout& layout) {
-  if (has_deformation_gradient(layout)) return new KinematicsStage<true>{layout};
+Stage* make_kinematics(bool keeps_F, Layout& layout) {
+  if (keeps_F) return new KinematicsStage<true>{layout};
   return new KinematicsStage<false>{layout};
 }
 
@@ -34,8 +35,8 @@ Stage* make_signal_speed(double q_lin, double q_quad, Layout& layout) {
   return new SignalSpeedStage{q_lin, q_quad, layout};
 }
 
-constexpr StageFactory factory{
-    make, make_part, make_eos, make_energy_heating, make_kinematics, make_signal_speed};
+constexpr StageFactory factory{make,          make_part,       make_eos,        make_energy_heating,
+                               make_cohesion, make_heat_floor, make_kinematics, make_signal_speed};
 
 }  // namespace
 

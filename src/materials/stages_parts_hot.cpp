@@ -25,6 +25,10 @@ template <class Law>
 Stage* make_law_part(const PartRequest& r, Layout& layout) {
   if constexpr (Law::family == Family::strength && !WholeStress<Law>) {
     if (r.part == Part::start) return make_start<Law>(r, layout);
+    if (r.part == Part::plastic_return && !Yielding<Law>) return new ElasticReturnStage{layout};
+  }
+  if constexpr (Coupled<Law>) {
+    if (r.part == Part::start) return make_start<Law>(r, layout);
   }
   if constexpr (Yielding<Law>) {
     const Law law = make_law<Law>(r.values, r.constants);
@@ -84,7 +88,7 @@ Stage* make_carried(const PartRequest& r, Layout& layout) {
 Stage* make_part(const PartRequest& r, Layout& layout) {
   if (r.part == Part::trial) return make_trial_of_rate(r, layout);
   if (r.part == Part::carried)
-    return has_voids(layout) ? make_carried<true>(r, layout) : make_carried<false>(r, layout);
+    return r.dilates ? make_carried<true>(r, layout) : make_carried<false>(r, layout);
   return stage_of(AllLaws{}, r.law,
                   [&]<class Law>() -> Stage* { return make_law_part<Law>(r, layout); });
 }

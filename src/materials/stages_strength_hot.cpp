@@ -11,10 +11,7 @@ Stage* make_strength(int index, const double* values, const MaterialConstants& c
                      Layout& layout) {
   return stage_of(AllLaws{}, index, [&]<class Law>() -> Stage* {
     if constexpr (WholeStress<Law>) {
-      const Law law = make_law<Law>(values, constants);
-      if (has_deformation_gradient(layout))
-        return new HyperelasticStage<Law, false>{law, constants, layout};
-      return new HyperelasticStage<Law, true>{law, constants, layout};
+      return new HyperelasticStage<Law>{make_law<Law>(values, constants), constants, layout};
     } else if constexpr (Law::family == Family::strength) {
       return new StrengthStage<Law>{make_law<Law>(values, constants), constants, layout};
     } else {

@@ -51,16 +51,15 @@ std::vector<std::string> available(const Simulation& sim, const std::vector<int>
   return out;
 }
 
-void gather_patch(const Simulation& sim, std::size_t patch, const std::vector<WantedScalar>& wanted,
-                  BodyPoints& out) {
-  const Patch& p = sim.grid().patches[patch];
+void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& wanted,
+                BodyPoints& out) {
+  const PointSet p = sim.set(at);
   const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
   const int x = body.slot(field::Position::info), v = body.slot(field::Velocity::info);
   const int m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
   const int failed = slot_of(body, field::Failed::info.name);
   const double loose = 0.5 * body.material().density;
-  const int at = static_cast<int>(patch);
-  for (int i = 0; i < p.count; ++i) {
+  for (int i = 0; i < p.count(); ++i) {
     Triple position{}, velocity{};
     for (int a = 0; a < sim.geometry().dimension; ++a) {
       position[static_cast<std::size_t>(a)] = sim.value(at, i, x + a);
@@ -113,8 +112,8 @@ BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
     const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
     std::vector<WantedScalar> wanted;
     for (auto& [name, values] : out.scalars) wanted.push_back({&values, slot_of(body, name)});
-    for (std::size_t p = 0; p < sim.grid().patches.size(); ++p)
-      if (sim.grid().patches[p].body == b) gather_patch(sim, p, wanted, out);
+    for (int s = 0; s < sim.set_count(); ++s)
+      if (sim.set(s).body == b) gather_set(sim, s, wanted, out);
   }
   return out;
 }
@@ -122,16 +121,15 @@ BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
 std::vector<double> fragment_numbers(const Simulation& sim, int body) {
   const BodyPoints points = gather_points(sim, {body}, {});
   const Pieces pieces = connected_pieces(points, measure_context(sim, {body}));
-  std::vector<std::size_t> first(sim.grid().patches.size());  // of every patch among the points
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < first.size(); ++p) {
-    first[p] = count;
-    if (sim.grid().patches[p].body == body)
-      count += static_cast<std::size_t>(sim.grid().patches[p].count);
+  std::vector<int> first;  // of every set among the points
+  int count = 0;
+  for (int s = 0; s < sim.set_count(); ++s) {
+    first.push_back(count);
+    if (sim.set(s).body == body) count += sim.set(s).count();
   }
   std::vector<double> out;
-  for (const auto& [patch, i] : sim.points_by_id(body))
-    out.push_back(pieces.of[first[static_cast<std::size_t>(patch)] + static_cast<std::size_t>(i)]);
+  for (const auto& [s, i] : sim.points_by_id(body))
+    out.push_back(pieces.of[static_cast<std::size_t>(first[static_cast<std::size_t>(s)] + i)]);
   return out;
 }
 

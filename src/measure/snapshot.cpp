@@ -98,18 +98,16 @@ double deviatoric_energy(const Simulation& sim) {
     const double G = body.material().shear_modulus;
     if (s < 0 || G <= 0) continue;
     const int phi = body.degrades() ? body.slot(field::Damage::info) : -1;
-    for (std::size_t p = 0; p < sim.grid().patches.size(); ++p) {
-      const Patch& patch = sim.grid().patches[p];
-      if (patch.body != static_cast<int>(b)) continue;
-      for (int i = 0; i < patch.count; ++i) {
+    for (int p = 0; p < sim.set_count(); ++p) {
+      if (sim.set(p).body != static_cast<int>(b)) continue;
+      for (int i = 0; i < sim.set(p).count(); ++i) {
         double square = 0;
         for (int k = 0; k < 6; ++k) {
-          const double x = sim.value(static_cast<int>(p), i, s + k);
+          const double x = sim.value(p, i, s + k);
           square += (k < 3 ? 1 : 2) * x * x;
         }
-        sum += sim.value(static_cast<int>(p), i, m) * square /
-               (4 * G * sim.value(static_cast<int>(p), i, rho) *
-                (phi < 0 ? 1 : 1 - sim.value(static_cast<int>(p), i, phi)));
+        sum += sim.value(p, i, m) * square /
+               (4 * G * sim.value(p, i, rho) * (phi < 0 ? 1 : 1 - sim.value(p, i, phi)));
       }
     }
   }
@@ -167,10 +165,13 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "deviatoric_elastic_energy", "J", deviatoric_energy(sim));
   add(row, "plastic_work", "J", a.plastic_work);
   add(row, "viscous_work", "J", a.viscous_work);
-  add(row, "transfer_loss", "J", a.transfer_in + a.transfer_out);
-  add(row, "time_centring", "J", a.time_centring);
+  add(row, "transfer_loss", "J", a.transfer_loss);
+  add(row, "transfer_gain", "J", a.transfer_gain);
+  add(row, "numerical_heat", "J", a.numerical_heat);
+  add(row, "carried_energy", "J", a.carried);
+  add(row, "wall_heat", "J", a.wall_heat);
   add(row, "wall_work", "J", a.wall_work);
-  add(row, "contact_work", "J", a.contact_work);
+  add(row, "contact_heat", "J", a.contact_heat);
   add(row, "friction_work", "J", a.friction_work);
   add(row, "external_work", "J", a.external_work);
   add(row, "removed_energy", "J", a.removed_energy);
@@ -214,14 +215,16 @@ Json audit_json(const Simulation& sim) {
   j["internal_energy"] = Json::of(t.internal);
   j["plastic_work"] = Json::of(a.plastic_work);
   j["viscous_work"] = Json::of(a.viscous_work);
-  j["internal_work"] = Json::of(a.internal_work);
   j["external_work"] = Json::of(a.external_work);
   j["wall_work"] = Json::of(a.wall_work);
-  j["contact_work"] = Json::of(a.contact_work);
+  j["wall_heat"] = Json::of(a.wall_heat);
+  j["contact_heat"] = Json::of(a.contact_heat);
   j["friction_work"] = Json::of(a.friction_work);
-  j["transfer_in"] = Json::of(a.transfer_in);
-  j["transfer_out"] = Json::of(a.transfer_out);
-  j["time_centring"] = Json::of(a.time_centring);
+  j["transfer_loss"] = Json::of(a.transfer_loss);
+  j["transfer_gain"] = Json::of(a.transfer_gain);
+  j["numerical_heat"] = Json::of(a.numerical_heat);
+  j["carried_energy"] = Json::of(a.carried);
+  j["largest_carried_energy"] = Json::of(a.largest_carried);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);
@@ -244,6 +247,7 @@ Json audit_json(const Simulation& sim) {
   events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
   events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
   events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
+  events["carriers"] = Json::of(static_cast<std::int64_t>(a.carriers));
   events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
   events["penetrations"] = Json::of(static_cast<std::int64_t>(a.penetrations));
   events["deepest_reflection_cells"] = Json::of(a.deepest_reflection);

@@ -16,16 +16,19 @@ constexpr int kZeros = 9 * kLanes;
 
 MaterialPoint::MaterialPoint(const MaterialOptions& material, double length,
                              const StageFactory& factory)
-    : layout_{3}, length_{length} {
+    : layout_{3} {
   layout_.state<field::Mass>(0, kDriver);
   layout_.state<field::Density>(material.density, kDriver);
   gradient_ = layout_.local_output<field::StepGradient>(kDriver).offset;
   stages_ = make_stages(factory, material_plan(material), layout_);
   layout_.check();
-  const auto size = static_cast<std::size_t>(kZeros + layout_.stride() + layout_.local_stride());
+  const auto size =
+      static_cast<std::size_t>(kZeros + kLanes + layout_.stride() + layout_.local_stride());
   buffer_.reserve(size);
   zeros_ = buffer_.data();
-  state_ = zeros_ + kZeros;
+  length_ = zeros_ + kZeros;
+  std::fill_n(length_, kLanes, length);
+  state_ = length_ + kLanes;
   local_ = state_ + layout_.stride();
   for (const Column& c : layout_.columns())
     for (int k = 0; k < c.components; ++k) set(*c.field, k, c.initial);
@@ -47,6 +50,7 @@ void MaterialPoint::step(const Eigen::Matrix3d& map, double dt) {
                         .first_group = 0,
                         .dt = dt,
                         .length = length_,
+                        .length_stride = 0,
                         .ledger = &ledger_,
                         .fault = &fault_};
   for (const NamedStage& s : stages_) s.stage->apply(batch);

@@ -9,6 +9,7 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/geometry/seeds/thickness.hpp"
+#include "krater/kinematics/mpm/columns.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/simulation/material_plan.hpp"
 
@@ -16,13 +17,9 @@ namespace krater {
 
 namespace {
 
-constexpr const char* kMethod = "method";
-
 // Shear modulus over bulk modulus up to which a solid is soft: its strength does not hold the
 // points against what their quadrature makes of the pressure.
 constexpr double kSoft = 0.01;
-
-bool carries_affine(Transfer t) { return t == Transfer::tflip || t == Transfer::apic; }
 
 bool wants(const Scene& scene, const FieldInfo& field) {
   for (const std::string& name : scene.output.fields)
@@ -71,51 +68,24 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     : options_{&scene.bodies.at(static_cast<std::size_t>(index))},
       material_{&scene.materials.at(static_cast<std::size_t>(options_->material))},
       layout_{dimension(scene.frame)} {
+  const MethodOptions& method = scene.method;
   if (options_->rigid()) {
-    declare_rigid_columns(scene);
+    declare_rigid_points(method, material_->density, layout_);
     return;
   }
-  declare_method_columns(scene);
+  declare_points(method,
+                 {.density = material_->density,
+                  .loaded = scene.body_force != nullptr,
+                  .walls = has_wall(scene),
+                  .reference_position = wants(scene, field::ReferencePosition::info),
+                  .deformation = wants(scene, field::DeformationGradient::info)},
+                 layout_);
   add_stages(factory);
-  if (pressure_on_grid(scene)) layout_.local_output<field::DilatationCorrection>(kMethod);
-  layout_.local_input<field::SignalSpeed>(kMethod);
-  layout_.local_input<field::DilatationRate>(kMethod);
+  declare_results(heat_floor_ != nullptr, pressure_on_grid(scene), layout_);
   layout_.check();
   const Column* c = layout_.find(field::SoundSpeed::info.name);
   const double bulk = c == nullptr ? 0 : c->initial;
   sound_speed_ = std::sqrt(bulk * bulk + 4.0 / 3.0 * material_->shear_modulus / material_->density);
-}
-
-void Body::declare_method_columns(const Scene& scene) {
-  layout_.state<field::Id>(0, kMethod);
-  layout_.state<field::Position>(0, kMethod);
-  layout_.state<field::Velocity>(0, kMethod);
-  layout_.state<field::Mass>(0, kMethod);
-  layout_.state<field::Density>(material_->density, kMethod);
-  const MethodOptions& m = scene.method;
-  if (carries_affine(m.transfer)) layout_.state<field::AffineVelocity>(0, kMethod);
-  if (m.shape == Shape::gimp) {
-    layout_.state<field::HalfWidth>(0, kMethod);
-    layout_.state<field::Domain>(0, kMethod);
-  }
-  if (m.update == Update::musl || m.transfer == Transfer::xpic || m.reference != Reference::current)
-    layout_.state<field::GridVelocity>(0, kMethod);
-  if (m.cell_averaging) layout_.state<field::ShockIndicator>(0, kMethod);
-  if (m.reference != Reference::current) {
-    layout_.state<field::ConfigurationPosition>(0, kMethod);
-    layout_.state<field::ConfigurationMap>(0, kMethod);
-    if (has_wall(scene)) layout_.state<field::BodyAcceleration>(0, kMethod);
-  }
-  if (scene.body_force) {
-    layout_.state<field::BodyAcceleration>(0, kMethod);
-    layout_.state<field::ReferencePosition>(0, kMethod);
-  } else if (wants(scene, field::ReferencePosition::info)) {
-    layout_.state<field::ReferencePosition>(0, kMethod);
-  }
-  if (wants(scene, field::DeformationGradient::info))
-    layout_.state<field::DeformationGradient>(0, kMethod);
-  layout_.local_output<field::StepGradient>(kMethod);
-  layout_.local_output<field::ExtraDilatation>(kMethod);
 }
 
 bool Body::pressure_on_grid(const Scene& scene) const {
@@ -125,18 +95,8 @@ bool Body::pressure_on_grid(const Scene& scene) const {
     return scene.method.grid_pressure == GridPressure::all;
   if (scene.contact.active) return false;  // a joint moves too much of a light node (src/README.md)
   const double bulk = material_->density * c->initial * c->initial;
-  return !material_->strength || material_->shear_modulus < kSoft * bulk;
-}
-
-/// What the scatter and the motion as a whole need; no stress, no law.
-void Body::declare_rigid_columns(const Scene& scene) {
-  layout_.state<field::Id>(0, kMethod);
-  layout_.state<field::Position>(0, kMethod);
-  layout_.state<field::Velocity>(0, kMethod);
-  layout_.state<field::Mass>(0, kMethod);
-  layout_.state<field::Density>(material_->density, kMethod);
-  layout_.state<field::ReferencePosition>(0, kMethod);
-  if (scene.method.shape == Shape::gimp) layout_.state<field::HalfWidth>(0, kMethod);
+  const bool solid = material_->strength || material_->model;
+  return !solid || material_->shear_modulus < kSoft * bulk;
 }
 
 void Body::add_stages(const StageFactory& factory) {
@@ -147,49 +107,15 @@ void Body::add_stages(const StageFactory& factory) {
       plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
+  if (plan.eos.law >= 0)
+    heat_floor_.reset(factory.heat_floor(plan.eos.law, plan.eos.values, plan.constants, layout_));
 }
 
 BodyKernelData Body::kernel_data() const {
-  const auto state = [this](const FieldInfo& f) {
-    const Column* c = layout_.find(f.name);
-    return c == nullptr ? -1 : c->offset;
-  };
-  const auto local = [this](const FieldInfo& f) {
-    for (const Column& c : layout_.locals())
-      if (std::string_view{c.field->name} == f.name) return c.offset;
-    return -1;
-  };
   BodyKernelData data;
-  PointColumns& c = data.columns;
-  c.stride = layout_.stride();
-  c.local_stride = layout_.local_stride();
-  c.grid_position = state(field::ConfigurationPosition::info);
-  c.map = state(field::ConfigurationMap::info);
-  if (c.grid_position < 0) c.grid_position = state(field::Position::info);
-  c.position = state(field::Position::info);
-  c.velocity = state(field::Velocity::info);
-  c.mass = state(field::Mass::info);
-  c.density = state(field::Density::info);
-  c.affine = state(field::AffineVelocity::info);
-  c.stress = state(field::DeviatoricStress::info);
-  c.pressure = state(field::Pressure::info);
-  c.viscous = state(field::ViscousPressure::info);
-  c.energy = state(field::InternalEnergy::info);
-  c.sound_speed = state(field::SoundSpeed::info);
-  c.indicator = state(field::ShockIndicator::info);
-  c.half_width = state(field::HalfWidth::info);
-  c.domain = state(field::Domain::info);
-  c.deformation = state(field::DeformationGradient::info);
-  c.failed = state(field::Failed::info);
-  if (material_->failure == FailureAction::remove) c.removed = c.failed;
-  c.body_acceleration = state(field::BodyAcceleration::info);
-  c.grid_velocity = state(field::GridVelocity::info);
-  c.local_gradient = local(field::StepGradient::info);
-  c.local_dilatation = local(field::ExtraDilatation::info);
-  c.local_correction = local(field::DilatationCorrection::info);
-  c.local_signal = local(field::SignalSpeed::info);
-  c.local_rate = local(field::DilatationRate::info);
+  data.columns = point_columns(layout_, material_->failure == FailureAction::remove);
   data.stages = stage_pointers_.data();
+  data.heat_floor = heat_floor_.get();
   data.stage_count = static_cast<int>(stage_pointers_.size());
   return data;
 }
@@ -206,7 +132,6 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   lattice.fit_to_body = options_->points.fit_to_body;
   lattice.origin = scene.grid.min;
   lattice.stagger = scene.method.stagger;
-  lattice.mirror = mirror_planes(scene, lattice);
   lattice.mirror = mirror_planes(scene, lattice);
   lattice.jitter = options_->points.jitter;
   lattice.seed = options_->points.seed;
@@ -280,7 +205,7 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
     set(field::HalfWidth::info, a, seed.half_width[i]);
     set(field::Domain::info, tensor_axis(scene.frame, a), seed.half_width[i] * seed.half_width[i]);
   }
-  if (options_->velocity && carries_affine(scene.method.transfer)) {
+  if (options_->velocity && slot(field::AffineVelocity::info) >= 0) {
     // The affine part holds part of a spinning body's angular momentum and energy: differences over
     // the point's own domain, exact for a linear field.
     for (int a = 0; a < dim; ++a) {

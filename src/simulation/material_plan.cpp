@@ -12,6 +12,7 @@ MaterialPlan material_plan(const MaterialOptions& material) {
   plan.eos = planned(material.eos);
   plan.strength = planned(material.strength);
   plan.damage = planned(material.damage);
+  plan.model = planned(material.model);
   plan.viscosity = planned(material.viscosity);
   plan.heating = planned(material.heating);
   plan.rate = material.rate;

@@ -15,10 +15,6 @@ namespace krater {
 
 namespace {
 
-constexpr double kGrowth = 1.05;         // of the time step from one step to the next
-constexpr double kFirstStepShare = 0.2;  // viscosity and the first shock are not known yet
-constexpr double kMinStepShare = 1e-6;   // of the first step
-
 GridGeometry make_geometry(const Scene& scene) {
   GridGeometry g;
   g.dimension = dimension(scene.frame);
@@ -81,7 +77,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       boundary_{geometry_, scene.grid.boundary, scene.method.reference != Reference::current},
       contact_{geometry_, scene.grid.boundary, scene.frame == Frame::axisymmetric,
                scene.method.shape == Shape::linear, scene.contact},
-      energy_watch_{boundary_} {
+      energy_watch_{boundary_},
+      clock_{{scene.time.cfl, scene.time.first_step, scene.time.min_step, scene.time.max_step}} {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     bodies_.push_back(std::make_unique<Body>(scene, static_cast<int>(b), stage_factory(level)));
     kernel_data_.push_back(bodies_.back()->kernel_data());
@@ -99,15 +96,15 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     std::iota(fields.begin(), fields.end(), 0);
     grid_.set_fields(std::move(fields));
   }
-  step_ = std::make_unique<MpmStep>(scene.method, grid_, boundary_, contact_, rigid_, *kernels_,
-                                    *plain_kernels_, kernel_data_);
+  step_ = std::make_unique<MpmStep>(
+      scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
+                                   kernel_data_, audit_});
   place_rigid_bodies();
   choose_first_step();
   const Totals start = totals();
-  Audit& audit = step_->audit();
-  audit.kinetic = audit.initial_kinetic = start.kinetic;
-  audit.internal = audit.initial_internal = start.internal;
-  audit.peak_energy = audit.energy();
+  audit_.kinetic = audit_.initial_kinetic = start.kinetic;
+  audit_.internal = audit_.initial_internal = start.internal;
+  audit_.peak_energy = audit_.energy();
 }
 
 void Simulation::place_rigid_bodies() {
@@ -133,22 +130,16 @@ void Simulation::place_points() {
     for (std::size_t id = 0; id < seeds.size(); ++id) {
       const BlockKey key = block_of(geometry_, seeds[id].x.data());
       const auto [at, is_new] =
-          where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches.size()));
-      if (is_new) {
-        grid_.patches.emplace_back();
-        grid_.patches.back().key = key;
-        grid_.patches.back().body = static_cast<int>(b);
-      }
+          where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches().size()));
+      if (is_new) grid_.add_patch(key, static_cast<int>(b), stride);
       bodies_[b]->make_point(scene_, seeds[id], id, record);
-      append(grid_.patches[static_cast<std::size_t>(at->second)], record.data(), stride);
+      grid_.patches()[static_cast<std::size_t>(at->second)].append(record.data());
       const double m = bodies_[b]->material().density * seeds[id].measure;
       smallest = smallest > 0 ? std::min(smallest, m) : m;
     }
   }
-  for (Patch& p : grid_.patches) {
-    const BodyKernelData& body = kernel_data_[static_cast<std::size_t>(p.body)];
-    pad(p, body.columns.stride, body.columns.mass);
-  }
+  for (Patch& p : grid_.patches())
+    p.points.pad(kernel_data_[static_cast<std::size_t>(p.body)].columns.mass);
   grid_.rebuild(true);
   step_->set_smallest_mass(smallest);
   step_->relink();
@@ -156,32 +147,25 @@ void Simulation::place_points() {
 
 void Simulation::choose_first_step() {
   double fastest = 0, signal = 0;
-  for (const Patch& p : grid_.patches) {
+  for (const Patch& p : grid_.patches()) {
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
     signal = std::max(signal, body.initial_sound_speed() *
                                   (body.q_lin() + std::sqrt(1 + body.q_lin() * body.q_lin())));
-    for (int i = 0; i < p.count; ++i)
+    for (int i = 0; i < p.points.count(); ++i)
       for (int a = 0; a < geometry_.dimension; ++a) {
-        const double* record = p.records.data() + static_cast<std::size_t>(i / kLanes) *
-                                                      static_cast<std::size_t>(c.stride);
-        const double speed = std::abs(record[c.velocity + kLanes * a + i % kLanes]);
+        const double speed = std::abs(p.points.at(c.velocity + kLanes * a, i));
         if (speed <= fastest) continue;
         fastest = speed;
         limit_.body = p.body;
-        limit_.id = record[i % kLanes];
+        limit_.id = p.points.at(0, i);
       }
   }
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
   limit_.rate = (2 * fastest + signal) * geometry_.inv_h;
-  dt_free_ = scene_.time.first_step > 0 ? scene_.time.first_step
-                                        : kFirstStepShare * scene_.time.cfl / limit_.rate;
-  require_steps(scene_.time, scene_.time.cfl / limit_.rate);
-  first_step_ = dt_free_;
-  expected_dt_ = scene_.time.cfl / limit_.rate;
-  if (scene_.time.max_step > 0) expected_dt_ = std::min(expected_dt_, scene_.time.max_step);
-  min_step_ = scene_.time.min_step > 0 ? scene_.time.min_step : kMinStepShare * dt_free_;
+  require_steps(scene_.time, clock_.stable_step(limit_.rate));
+  clock_.start(limit_.rate);
 }
 
 const char* Simulation::limiter() const {
@@ -198,12 +182,12 @@ const char* Simulation::limiter() const {
 std::string Simulation::describe_limit() const {
   const std::string text = fmt::format("limited by {}", limiter());
   if (limit_.body < 0) return text;  // at the start, with everything at rest
-  for (int n = 0; n < static_cast<int>(grid_.patches.size()); ++n) {
-    const Patch& p = grid_.patches[static_cast<std::size_t>(n)];
+  for (int n = 0; n < static_cast<int>(grid_.patches().size()); ++n) {
+    const Patch& p = grid_.patches()[static_cast<std::size_t>(n)];
     if (p.body != limit_.body) continue;
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const int id = body.slot(field::Id::info);
-    for (int i = 0; i < p.count; ++i)
+    for (int i = 0; i < p.points.count(); ++i)
       if (value(n, i, id) == limit_.id)
         return fmt::format("{} of {}{}", text, describe_point(n, i), limiting_field(n, i));
   }
@@ -214,7 +198,7 @@ std::string Simulation::limiting_field(int patch, int point) const {
   const char* field = limit_.kind == 0   ? field::SoundSpeed::info.name
                       : limit_.kind == 1 ? field::Velocity::info.name
                                          : field::Density::info.name;
-  const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+  const Patch& p = grid_.patches()[static_cast<std::size_t>(patch)];
   const Column* column = bodies_[static_cast<std::size_t>(p.body)]->layout().find(field);
   std::string text;
   for (int k = 0; column != nullptr && k < column->components; ++k)
@@ -224,33 +208,26 @@ std::string Simulation::limiting_field(int patch, int point) const {
 }
 
 double Simulation::next_step(double until) {
-  const double limit = scene_.time.cfl / limit_.rate;
-  double dt = limit;
-  if (steps_ > 0)
-    dt = std::min(dt, kGrowth * dt_free_);
-  else
-    dt = dt_free_;
-  if (scene_.time.max_step > 0) dt = std::min(dt, scene_.time.max_step);
-  // The first steps may be shorter than time.min_step: they only grow towards the limit.
-  if (!(limit >= min_step_) || !(dt >= std::min(min_step_, first_step_)))
+  try {
+    return clock_.next(limit_.rate, until);
+  } catch (const StepVanished& e) {
     throw NumericalError(
         fmt::format("time step vanished: {:.3e} s < time.min_step = {:.3e} s; {}; time {:.6e} s, "
                     "step {}",
-                    std::min(dt, limit), min_step_, describe_limit(), time_, steps_));
-  dt_free_ = dt;
-  const double left = until - time_;
-  if (dt >= left) return left;
-  return dt > 0.5 * left ? 0.5 * left : dt;  // no sliver of a step before an output time
+                    e.step, e.least, describe_limit(), time(), steps()));
+  }
 }
 
 void Simulation::step(double until) {
   const double asked = next_step(until);
-  rigid_.set_time(time_);
-  if (boundary_.set_time(time_)) step_->relink();
+  rigid_.set_time(time());
+  if (boundary_.set_time(time())) step_->relink();
   if (scene_.body_force) apply_body_force();
   const std::array<double, 3> wall_force = apply_point_walls(asked);
+  double taken = 0;
   try {
-    dt_ = step_->advance(asked);
+    Kinematics* const all[] = {step_.get()};
+    taken = take_step(all, asked);
   } catch (const StepFault& fault) {
     broken_ = true;
     const std::string text = describe_fault(fault);
@@ -261,17 +238,14 @@ void Simulation::step(double until) {
   } catch (const NumericalError& e) {
     broken_ = true;
     deliver(grid_, kernel_data_);
-    throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time_, steps_));
+    throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time(), steps()));
   }
-  if (dt_ < asked) dt_free_ = dt_;
-  if (walls_act_on_points()) step_->audit().book_point_walls(wall_force, dt_, !scene_.body_force);
-  ++steps_;
-  const bool reached = dt_ == asked && asked == until - time_;
-  time_ = reached ? until : time_ + dt_;
+  if (walls_act_on_points()) audit_.book_point_walls(wall_force, taken, !scene_.body_force);
+  clock_.advance(asked, taken, until);
   limit_ = step_->limit();
   watch(*this, warnings_);
   try {
-    energy_watch_.check(step_->audit());
+    energy_watch_.check(audit_);
   } catch (const EnergyError& e) {
     fail_energy(e);
   }
@@ -281,7 +255,7 @@ void Simulation::step(double until) {
 void Simulation::fail_energy(const EnergyError& e) {
   broken_ = true;
   throw NumericalError(
-      fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(), time_, steps_));
+      fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(), time(), steps()));
 }
 
 bool Simulation::walls_act_on_points() const {
@@ -291,63 +265,29 @@ bool Simulation::walls_act_on_points() const {
 std::array<double, 3> Simulation::apply_point_walls(double dt) {
   if (!walls_act_on_points()) return {};
   if (!scene_.body_force)
-    for (Patch& patch : grid_.patches) {
+    for (Patch& patch : grid_.patches()) {
       const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-      for (int i = 0; i < patch.count; ++i)
+      for (int i = 0; i < patch.points.count(); ++i)
         for (int a = 0; a < geometry_.dimension; ++a)
-          component(patch, c.stride, c.body_acceleration + kLanes * a, i) = 0;
+          patch.points.at(c.body_acceleration + kLanes * a, i) = 0;
     }
   const double spacing = geometry_.h / scene_.method.points_per_direction;
   return push_from_walls(grid_, kernel_data_, boundary_, spacing, dt);
 }
 
-void Simulation::load_rigid_bodies() {
-  for (RigidBody& body : rigid_.all()) {
-    const auto b = static_cast<std::size_t>(body.options().body);
-    const PointColumns& c = kernel_data_[b].columns;
-    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
-    for (Patch& patch : grid_.patches) {
-      if (patch.body != static_cast<int>(b)) continue;
-      for (int i = 0; i < patch.count; ++i) {
-        Triple x{}, X{};
-        for (int a = 0; a < geometry_.dimension; ++a) {
-          x[static_cast<std::size_t>(a)] = component(patch, c.stride, c.position + kLanes * a, i);
-          X[static_cast<std::size_t>(a)] =
-              component(patch, c.stride, body.options().reference + kLanes * a, i);
-        }
-        const Triple a = (*scene_.body_force)(x, X, time_);
-        const Eigen::Vector3d f =
-            component(patch, c.stride, c.mass, i) * Eigen::Vector3d{a[0], a[1], a[2]};
-        force += f;
-        moment += (Eigen::Vector3d{x[0], x[1], x[2]} - body.twist().centre).cross(f);
-      }
-    }
-    body.set_load(force, moment);
-  }
-}
-
 void Simulation::apply_body_force() {
-  load_rigid_bodies();
-  for (Patch& patch : grid_.patches) {
+  const Acceleration load = [this](const Triple& x, const Triple& X, double t) {
+    return (*scene_.body_force)(x, X, t);
+  };
+  for (RigidBody& body : rigid_.all())
+    load_rigid(body, grid_, kernel_data_[static_cast<std::size_t>(body.options().body)].columns,
+               load, time());
+  for (Patch& patch : grid_.patches()) {
     if (rigid_.find(patch.body)) continue;
-    const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-    const int reference = bodies_[static_cast<std::size_t>(patch.body)]
-                              ->layout()
-                              .find(field::ReferencePosition::info.name)
-                              ->offset;
-    for (int i = 0; i < patch.count; ++i) {
-      double* record = patch.records.data() +
-                       static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
-      Triple x{}, X{};
-      for (int a = 0; a < geometry_.dimension; ++a) {
-        x[static_cast<std::size_t>(a)] = record[c.position + kLanes * a + i % kLanes];
-        X[static_cast<std::size_t>(a)] = record[reference + kLanes * a + i % kLanes];
-      }
-      const Triple b = (*scene_.body_force)(x, X, time_);
-      for (int a = 0; a < geometry_.dimension; ++a)
-        record[c.body_acceleration + kLanes * a + i % kLanes] = b[static_cast<std::size_t>(a)];
-    }
-    pad(patch, c.stride, c.mass);
+    const auto b = static_cast<std::size_t>(patch.body);
+    const Column* reference = bodies_[b]->layout().find(field::ReferencePosition::info.name);
+    accelerate(patch.points, kernel_data_[b].columns, reference->offset, geometry_.dimension, load,
+               time());
   }
 }
 

@@ -31,42 +31,36 @@ const char* text_of(FaultKind kind) {
 
 std::size_t Simulation::point_count() const {
   std::size_t n = 0;
-  for (const Patch& p : grid_.patches) n += static_cast<std::size_t>(p.count);
+  for (int s = 0; s < set_count(); ++s) n += static_cast<std::size_t>(set(s).count());
   return n;
 }
 
 double Simulation::bytes_per_point() const {
   double doubles = 0;
-  for (const Patch& p : grid_.patches)
-    doubles +=
-        static_cast<double>(p.records.size() + p.tile.size() + p.beta.size()) + sizeof(Patch) / 8.0;
-  doubles += static_cast<double>(grid_.node_blocks.size()) * kBlockNodes * kNodeDoubles;
+  for (const Patch& p : grid_.patches())
+    doubles += static_cast<double>(p.points.capacity() + p.tile.nodes.size() + p.beta.size()) +
+               sizeof(Patch) / 8.0;
+  doubles += static_cast<double>(grid_.node_blocks().size()) * kBlockNodes * kNodeDoubles;
   return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
 }
 
-void Simulation::set_value(int patch, int point, int slot, double x) {
-  Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
-  const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
-  p.records.data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
-                   static_cast<std::size_t>(kLanes * slot + point % kLanes)] = x;
-  p.settled = p.tile_current = p.tile_ahead = false;
+void Simulation::set_value(int s, int point, int slot, double x) {
+  step_->change(s).at(kLanes * slot, point) = x;
 }
 
 void Simulation::book_change() {
-  Audit& audit = step_->audit();
   const Totals now = totals();
-  audit.external_work += now.kinetic + now.internal - (audit.kinetic + audit.internal);
-  audit.kinetic = now.kinetic;
-  audit.internal = now.internal;
+  audit_.external_work += now.kinetic + now.internal - (audit_.kinetic + audit_.internal);
+  audit_.kinetic = now.kinetic;
+  audit_.internal = now.internal;
 }
 
 std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {
   const int slot = bodies_[static_cast<std::size_t>(body)]->slot(field::Id::info);
   std::vector<std::pair<double, std::pair<int, int>>> order;
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    if (grid_.patches[p].body != body) continue;
-    for (int i = 0; i < grid_.patches[p].count; ++i)
-      order.push_back({value(static_cast<int>(p), i, slot), {static_cast<int>(p), i}});
+  for (int s = 0; s < set_count(); ++s) {
+    if (set(s).body != body) continue;
+    for (int i = 0; i < set(s).count(); ++i) order.push_back({value(s, i, slot), {s, i}});
   }
   std::sort(order.begin(), order.end());
   std::vector<std::pair<int, int>> out;
@@ -78,11 +72,11 @@ std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {
 Totals Simulation::totals(int body) const {
   Totals t;
   const int dim = geometry_.dimension;
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    const Patch& patch = grid_.patches[p];
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
+    const Patch& patch = grid_.patches()[p];
     if (body >= 0 && patch.body != body) continue;
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-    for (int i = 0; i < patch.count; ++i) {
+    for (int i = 0; i < patch.points.count(); ++i) {
       const auto at = [&](int offset, int k) {
         return value(static_cast<int>(p), i, offset / kLanes + k);
       };
@@ -91,6 +85,7 @@ Totals Simulation::totals(int body) const {
       t.mass += m;
       t.kinetic += point_kinetic(patch, i, c, geometry_);
       if (c.energy >= 0) t.internal += m * at(c.energy, 0);
+      if (c.carried >= 0) t.internal += m * at(c.carried, 0);
       for (int a = 0; a < dim; ++a)
         t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
       // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
@@ -110,7 +105,7 @@ Totals Simulation::totals(int body) const {
 }
 
 std::string Simulation::describe_point(int patch, int point) const {
-  const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
+  const Patch& p = grid_.patches()[static_cast<std::size_t>(patch)];
   const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
   std::string position;
   for (int a = 0; a < geometry_.dimension; ++a)
@@ -124,10 +119,10 @@ std::string Simulation::describe_point(int patch, int point) const {
 std::string Simulation::describe_hottest() const {
   double greatest = -1;
   std::pair<int, int> where{0, 0};
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    const Patch& patch = grid_.patches[p];
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
+    const Patch& patch = grid_.patches()[p];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-    for (int i = 0; i < patch.count; ++i) {
+    for (int i = 0; i < patch.points.count(); ++i) {
       const int n = static_cast<int>(p);
       double energy = point_kinetic(patch, i, c, geometry_) / value(n, i, c.mass / kLanes);
       if (c.energy >= 0) energy += value(n, i, c.energy / kLanes);
@@ -143,10 +138,10 @@ std::string Simulation::describe_hottest() const {
 }
 
 std::string Simulation::describe_fault(const StepFault& fault) const {
-  const Patch& patch = grid_.patches[static_cast<std::size_t>(fault.patch)];
+  const Patch& patch = grid_.patches()[static_cast<std::size_t>(fault.patch)];
   int lane = 0;
   while (lane < kLanes - 1 && ((fault.fault.lanes >> lane) & 1U) == 0) ++lane;
-  const int point = std::min(kLanes * fault.fault.group + lane, patch.count - 1);
+  const int point = std::min(kLanes * fault.fault.group + lane, patch.points.count() - 1);
   std::string field = "all fields finite";
   for (const Column& c : bodies_[static_cast<std::size_t>(patch.body)]->layout().columns())
     for (int k = 0; k < c.components && field == "all fields finite"; ++k) {
@@ -155,7 +150,7 @@ std::string Simulation::describe_fault(const StepFault& fault) const {
         field = fmt::format("field '{}' component {} is {}", c.field->name, k, x);
     }
   return fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(fault.patch, point),
-                     text_of(fault.fault.kind), field, time_, steps_);
+                     text_of(fault.fault.kind), field, time(), steps());
 }
 
 }  // namespace krater

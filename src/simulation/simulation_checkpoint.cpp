@@ -41,6 +41,16 @@ std::string columns_text(const Body& body) {
   return text;
 }
 
+/// The entries of the account: "kinetic, internal, ...".
+std::string audit_text() {
+  std::string text;
+  const Audit audit;
+  for_each_entry(audit, [&text](const char* name, double) {
+    text += (text.empty() ? "" : ", ") + std::string{name};
+  });
+  return text;
+}
+
 const CheckpointBlob& demand(const Checkpoint& checkpoint, const std::string& name) {
   if (const CheckpointBlob* blob = checkpoint.find(name)) return *blob;
   throw InputError("checkpoint has no '" + name +
@@ -53,12 +63,12 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   const Body& body = *bodies_[static_cast<std::size_t>(b)];
   std::vector<int> patches;
   std::vector<std::int64_t> keys;
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    const Patch& patch = grid_.patches[p];
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
+    const Patch& patch = grid_.patches()[p];
     if (patch.body != b) continue;
     patches.push_back(static_cast<int>(p));
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
-    keys.push_back(patch.count);
+    keys.push_back(patch.points.count());
   }
   out.blobs.push_back(integers(blob_name(body, "patches"), std::move(keys)));
   out.blobs.push_back({blob_name(body, "columns"), {}, {}, {}, columns_text(body)});
@@ -67,7 +77,7 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   for (const Column& c : body.layout().columns())
     for (int k = 0; k < c.components; ++k, ++rows)
       for (const int p : patches)
-        for (int i = 0; i < grid_.patches[static_cast<std::size_t>(p)].count; ++i)
+        for (int i = 0; i < grid_.patches()[static_cast<std::size_t>(p)].points.count(); ++i)
           values.push_back(value(p, i, c.offset / kLanes + k));
   const std::uint64_t points = rows > 0 ? values.size() / rows : 0;
   out.blobs.push_back({blob_name(body, "points"), {rows, points}, std::move(values), {}, {}});
@@ -77,14 +87,14 @@ void Simulation::save_body(int b, Checkpoint& out) const {
 
 Checkpoint Simulation::save() const {
   Checkpoint out;
-  out.blobs.push_back(numbers(
-      "clock", {time_, dt_, dt_free_, min_step_, limit_.rate, 1.0 * limit_.body, limit_.id}));
-  out.blobs.push_back(integers("counters", {steps_, limit_.kind}));
+  out.blobs.push_back(numbers("clock", {time(), dt(), dt_free(), clock_.least(), limit_.rate,
+                                        1.0 * limit_.body, limit_.id}));
+  out.blobs.push_back(integers("counters", {steps(), limit_.kind}));
   out.blobs.push_back(numbers("grid", grid_identity(scene_.frame, geometry_)));
-  static_assert(std::is_trivially_copyable_v<Audit> && sizeof(Audit) % sizeof(double) == 0);
-  const auto* audit = reinterpret_cast<const double*>(&step_->audit());
-  out.blobs.push_back(
-      numbers("audit", std::vector<double>(audit, audit + sizeof(Audit) / sizeof(double))));
+  std::vector<double> entries;
+  for_each_entry(audit_, [&](const char*, double value) { entries.push_back(value); });
+  out.blobs.push_back(numbers("audit/entries", std::move(entries)));
+  out.blobs.push_back({"audit/names", {}, {}, {}, audit_text()});
   warnings_.save(out);
   for (std::size_t b = 0; b < bodies_.size(); ++b) save_body(static_cast<int>(b), out);
   return out;
@@ -98,23 +108,20 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   const std::vector<double>& x = demand(checkpoint, blob_name(body, "points")).doubles;
   const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
-  const std::size_t first = grid_.patches.size();
+  const std::size_t first = grid_.patches().size();
   for (std::size_t i = 0; i + 3 < keys.size(); i += 4) {
-    Patch& p = grid_.patches.emplace_back();
-    for (std::size_t a = 0; a < 3; ++a) p.key.i[a] = static_cast<std::int32_t>(keys[i + a]);
-    p.body = b;
-    p.count = static_cast<int>(keys[i + 3]);
-    p.records.reserve(static_cast<std::size_t>(p.groups()) *
-                      static_cast<std::size_t>(columns.stride));
+    BlockKey key;
+    for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(keys[i + a]);
+    grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 3]));
   }
   std::size_t at = 0;
   for (const Column& c : body.layout().columns())
     for (int k = 0; k < c.components; ++k)
-      for (std::size_t p = first; p < grid_.patches.size(); ++p)
-        for (int i = 0; i < grid_.patches[p].count; ++i)
+      for (std::size_t p = first; p < grid_.patches().size(); ++p)
+        for (int i = 0; i < grid_.patches()[p].points.count(); ++i)
           set_value(static_cast<int>(p), i, c.offset / kLanes + k, x.at(at++));
-  for (std::size_t p = first; p < grid_.patches.size(); ++p)
-    if (grid_.patches[p].count > 0) pad(grid_.patches[p], columns.stride, columns.mass);
+  for (std::size_t p = first; p < grid_.patches().size(); ++p)
+    if (!grid_.patches()[p].points.empty()) grid_.patches()[p].points.pad(columns.mass);
   for (RigidBody& rigid : rigid_.all()) {
     if (rigid.options().body != b) continue;
     const std::vector<double>& state = demand(checkpoint, blob_name(body, "rigid")).doubles;
@@ -130,20 +137,19 @@ void Simulation::restore(const Checkpoint& checkpoint) {
         "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
         "the scene and the --set options it was written with");
   const auto& clock = demand(checkpoint, "clock").doubles;
-  time_ = clock.at(0);
-  dt_ = clock.at(1);
-  dt_free_ = clock.at(2);
+  clock_.restore(clock.at(0), clock.at(1), clock.at(2),
+                 demand(checkpoint, "counters").integers.at(0));
   limit_ = {clock.at(4), 0, static_cast<int>(clock.at(5)), clock.at(6)};
-  boundary_.set_time(time_);
-  step_->set_last_step(dt_);
-  steps_ = demand(checkpoint, "counters").integers.at(0);
+  boundary_.set_time(time());
+  step_->set_last_step(dt());
   limit_.kind = static_cast<int>(demand(checkpoint, "counters").integers.at(1));
-  const auto& audit = demand(checkpoint, "audit").doubles;
-  if (audit.size() != sizeof(Audit) / sizeof(double))
+  const auto& entries = demand(checkpoint, "audit/entries").doubles;
+  if (demand(checkpoint, "audit/names").text != audit_text() || entries.size() != audit_entries())
     throw InputError("checkpoint was written by another version of krater");
-  std::copy(audit.begin(), audit.end(), reinterpret_cast<double*>(&step_->audit()));
+  std::size_t entry = 0;
+  for_each_entry(audit_, [&](const char*, double& value) { value = entries[entry++]; });
   warnings_.restore(checkpoint);
-  grid_.patches.clear();
+  grid_.drop_patches();
   for (std::size_t b = 0; b < bodies_.size(); ++b) restore_body(static_cast<int>(b), checkpoint);
   grid_.rebuild(true);
   step_->relink();

@@ -42,6 +42,9 @@ std::vector<Case> cases() {
     } else if (law.family == "eos") {
       r.eos = law.name;
       all.push_back({group, r});
+    } else if (law.family == "model") {
+      r.strength = r.eos = "", r.model = law.name;
+      all.push_back({group, r});
     } else if (law.family == "heating" && law.needs_eos) {
       r.heating = false, r.thermal = true;
       all.push_back({group, r});

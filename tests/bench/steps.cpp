@@ -74,10 +74,10 @@ struct Place {
 std::map<std::pair<int, double>, Place> places(const Simulation& sim) {
   std::map<std::pair<int, double>, Place> out;
   const GridGeometry& grid = sim.geometry();
-  for (std::size_t p = 0; p < sim.grid().patches.size(); ++p) {
-    const Patch& patch = sim.grid().patches[p];
+  for (std::size_t p = 0; p < sim.grid().patches().size(); ++p) {
+    const Patch& patch = sim.grid().patches()[p];
     const Body& body = *sim.bodies()[static_cast<std::size_t>(patch.body)];
-    for (int i = 0; i < patch.count; ++i) {
+    for (int i = 0; i < patch.points.count(); ++i) {
       Place place{patch.key, {}};
       for (int a = 0; a < grid.dimension; ++a)
         place.cell[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(
@@ -177,18 +177,19 @@ Samples time_steps(Simulation& sim, int steps, double until) {
 
 void print_state(const Simulation& sim) {
   std::size_t asleep = 0;
-  for (const Patch& p : sim.grid().patches) asleep += p.tile_current ? 1 : 0;
+  for (const Patch& p : sim.grid().patches()) asleep += p.tile.state == Tile::State::asleep;
   double record = 0;
-  for (const Patch& p : sim.grid().patches)
-    record += 8.0 * p.count * sim.bodies()[static_cast<std::size_t>(p.body)]->layout().stride() /
-              kLanes / static_cast<double>(sim.point_count());
+  for (const Patch& p : sim.grid().patches())
+    record += 8.0 * p.points.count() *
+              sim.bodies()[static_cast<std::size_t>(p.body)]->layout().stride() / kLanes /
+              static_cast<double>(sim.point_count());
   std::printf("{\"points\": %zu, \"steps\": %lld, \"threads\": %d, \"instruction_set\": \"%s\",\n",
               sim.point_count(), static_cast<long long>(sim.steps()), threads(),
               name_of(sim.isa_level()));
   std::printf(
       " \"dt\": %.6g, \"time\": %.6g, \"patches\": %zu, \"asleep\": %zu, "
       "\"node_blocks\": %zu,\n",
-      sim.dt(), sim.time(), sim.grid().patches.size(), asleep, sim.grid().node_blocks.size());
+      sim.dt(), sim.time(), sim.grid().patches().size(), asleep, sim.grid().node_blocks().size());
   std::printf(
       " \"record_bytes\": %.2f, \"bytes_per_point\": %.2f, \"resident_bytes_per_point\": %.2f, "
       "\"hash\": \"%016llx\",\n",

@@ -162,6 +162,28 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"johnson_cook_uncoupled.softening", 0.0},
       {"cockcroft_latham.W_c", 3e6},
       {"maximum_plastic_strain.eps_max", 0.02},
+      {"tuler_butcher.stress", 2e8},
+      {"tuler_butcher.exponent", 2.0},
+      {"tuler_butcher.time", 1e-7},
+      {"holmquist_johnson_cook.compressive_strength", 48e6},
+      {"holmquist_johnson_cook.A", 0.79},
+      {"holmquist_johnson_cook.B", 1.6},
+      {"holmquist_johnson_cook.N", 0.61},
+      {"holmquist_johnson_cook.C", 0.007},
+      {"holmquist_johnson_cook.epsdot0", 1.0},
+      {"holmquist_johnson_cook.S_max", 7.0},
+      {"holmquist_johnson_cook.D1", 0.04},
+      {"holmquist_johnson_cook.D2", 1.0},
+      {"holmquist_johnson_cook.eps_f_min", 0.01},
+      {"holmquist_johnson_cook.tensile_strength", 4e6},
+      {"holmquist_johnson_cook.crush_pressure", 16e6},
+      {"holmquist_johnson_cook.crush_compression", 1e-3},
+      {"holmquist_johnson_cook.lock_pressure", 0.8e9},
+      {"holmquist_johnson_cook.lock_compression", 0.1},
+      {"holmquist_johnson_cook.lock_strain", 0.0},
+      {"holmquist_johnson_cook.K1", 85e9},
+      {"holmquist_johnson_cook.K2", -171e9},
+      {"holmquist_johnson_cook.K3", 208e9},
       {"plastic_work.fraction", 0.9},
       {"plastic_work.cp", 383.0},
       {"energy.c_v", 383.0},
@@ -192,6 +214,8 @@ std::vector<Recipe> all_recipes() {
                         .heating = true,
                         .damage = damage};
     recipes.push_back(recipe);
+    if (!catalogue().at(static_cast<std::size_t>(find_law("damage", damage))).needs_flow)
+      recipes.push_back({.strength = "elastic", .eos = "mie_gruneisen_shock", .damage = damage});
     const auto values =
         typical_parameters(catalogue().at(static_cast<std::size_t>(find_law("damage", damage))));
     if (!law_degrades(find_law("damage", damage), values.data(), kCopper)) continue;
@@ -259,6 +283,14 @@ std::vector<Recipe> all_recipes() {
                        .rate = *strength == 'j' ? Rate::jaumann : Rate::truesdell,
                        .spall_strength = 2e8,
                        .spall_action = SpallAction::fail});
+  for (const std::string& model : law_names("model")) {
+    for (int rate = 0; rate < 4; ++rate)
+      recipes.push_back({.strength = "",
+                         .eos = "",
+                         .heating = rate == 0,
+                         .rate = static_cast<Rate>(rate),
+                         .model = model});
+  }
   for (const std::string& eos : law_names("eos")) {  // fluids
     recipes.push_back({.strength = "", .eos = eos, .viscosity = eos != "linear"});
   }
@@ -266,9 +298,9 @@ std::vector<Recipe> all_recipes() {
 }
 
 std::string describe(const Recipe& recipe) {
-  return recipe.strength + " + " + recipe.eos + (recipe.viscosity ? " + viscosity" : "") +
-         (recipe.heating ? " + heating" : "") + (recipe.thermal ? " + heating by energy" : "") +
-         (recipe.track_deformation ? " + F" : "") +
+  return recipe.model + recipe.strength + " + " + recipe.eos +
+         (recipe.viscosity ? " + viscosity" : "") + (recipe.heating ? " + heating" : "") +
+         (recipe.thermal ? " + heating by energy" : "") + (recipe.track_deformation ? " + F" : "") +
          (recipe.damage.empty() ? "" : " + damage " + recipe.damage) +
          (recipe.coupling == Coupling::rate ? " (rate)" : "") +
          (recipe.spall_strength > 0 ? " + spall" : "") + ", " +
@@ -287,7 +319,7 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
   layout_.local_output<field::StepGradient>("method");
   layout_.local_output<field::ExtraDilatation>("method");
   std::vector<std::vector<double>> kept;
-  kept.reserve(5);
+  kept.reserve(6);
   const auto planned = [&](const char* family, const std::string& name) -> PlannedLaw {
     if (name.empty()) return {};
     const int law = find_law(family, name);
@@ -304,6 +336,7 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
   plan.strength = planned("strength", recipe.strength);
   plan.eos = planned("eos", recipe.eos);
   plan.damage = planned("damage", recipe.damage);
+  plan.model = planned("model", recipe.model);
   plan.viscosity = planned("viscosity", recipe.viscosity ? "linear_quadratic" : "");
   plan.heating =
       planned("heating", recipe.heating ? "plastic_work" : (recipe.thermal ? "energy" : ""));
@@ -315,10 +348,13 @@ Body::Body(const StageFactory& factory, const Recipe& recipe, int points, int ba
   layout_.check();
 
   const int state_size = groups_ * layout_.stride(), local_size = groups_ * layout_.local_stride();
-  storage_.assign(static_cast<std::size_t>(state_size + local_size + kZeros + 3 * kLanes), 0.0);
+  storage_.assign(
+      static_cast<std::size_t>(state_size + local_size + kZeros + (groups_ + 3) * kLanes), 0.0);
   zeros_ = aligned(storage_.data());
   state_ = zeros_ + kZeros;
   local_ = state_ + state_size;
+  lengths_ = local_ + local_size;  // one per point: a grid gives one to all
+  std::fill_n(lengths_, groups_ * kLanes, 1e-4);
   for (int i = 0; i < points_; ++i) {
     for (const Column& c : layout_.columns()) {
       for (int k = 0; k < c.components; ++k) state(c.field->name, i, k) = c.initial;
@@ -379,7 +415,8 @@ BatchData Body::batch(int index, double dt) {
           .count = count,
           .first_group = first,
           .dt = dt,
-          .length = 1e-4,
+          .length = lengths_ + first * kLanes,
+          .length_stride = kLanes,
           .ledger = &ledger,
           .fault = &fault};
 }

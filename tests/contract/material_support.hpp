@@ -45,10 +45,12 @@ struct Recipe {
   /// Instead of typical_parameters: "law.key" and value.
   std::map<std::string, double> parameters = {};
   MaterialConstants constants = kCopper;
-  bool thermal = false;  ///< heating: energy
+  bool thermal = false;    ///< heating: energy
+  std::string model = {};  ///< coupled law, in place of strength, eos and damage
 };
 /// Every strength with every eos (or none, if it gives the whole stress), every damage law with the
-/// couplings it allows, every rate with and without damage; from the catalogue.
+/// couplings it allows, every rate with and without damage, every model with every rate; from the
+/// catalogue.
 std::vector<Recipe> all_recipes();
 std::string describe(const Recipe& recipe);
 
@@ -89,7 +91,7 @@ class Body {
   std::vector<NamedStage> stages_;
   int points_, batch_size_, groups_per_batch_, groups_;
   std::vector<double> storage_;
-  double *state_, *local_, *zeros_;
+  double *state_, *local_, *zeros_, *lengths_;
 };
 
 /// Step gradients of a violent, smooth, reproducible motion.

@@ -229,6 +229,14 @@ def damage():
           f"{cut} updates at the limit, {s['events']['spalls']} counted, up to {t['trials'].max():.0f} trials")
 
 
+def concrete():
+    """Peaks of triaxial tests by quadrature along their paths: what the lateral pressure has crushed counts."""
+    for lateral, peak in ((50e6, 151.2507e6), (100e6, 190.4822e6)):
+        found = run(POINTS / "concrete_triaxial.yaml", f"point.path.triaxial.lateral_stress={-lateral}")
+        if found:
+            near(f"concrete at {lateral / 1e6:g} MPa: peak", found[0]["von_mises"].max(), peak, 1e-3)
+
+
 def couplings():
     """The yield condition of `coupling: rate`, q = (1 - phi) sigma_Y, and that of `effective`, at the end of a path."""
     soft = "damage: {{lemaitre_energy: {{S: 0.1 MPa, s: 1, eps_d: 0, phi_c: 0.9}}, coupling: {}}}"
@@ -434,6 +442,7 @@ with Folder():
     motions()
     damage()
     couplings()
+    concrete()
     stress_rates()
     hugoniots()
     releases()

@@ -136,9 +136,9 @@ class Rig {
     settings_.geometry = &run.sim->geometry();
     settings_.dt = 1;
     settings_.average_cells = averaging;
-    zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles), cells_.reserve(4 * kBlockNodes);
+    zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles), cells_.reserve(kCellDoubles);
     boundary_.relink(grid());
-    local_.resize(grid().patches.size());
+    local_.resize(grid().patches().size());
   }
   int dim() const { return dim_; }
   double h() const { return run_.sim->geometry().h; }
@@ -146,16 +146,16 @@ class Rig {
 
   /// Node sums [m, p, f, V] with symmetry folded in.
   void scatter() {
-    for (std::size_t p = 0; p < grid().patches.size(); ++p)
-      kernels_->scatter(grid().patches[p], data_, settings_, scratch(p));
-    for (NodeBlock& block : grid().node_blocks) kernels_->sum_tiles(grid(), block);
+    for (std::size_t p = 0; p < grid().patches().size(); ++p)
+      kernels_->scatter(grid().patches()[p], data_, settings_, scratch(p));
+    for (NodeBlock& block : grid().node_blocks()) kernels_->sum_tiles(grid(), block);
     boundary_.fold();
   }
   /// Calls visit(record, position of the node in cells from the lower corner).
   template <class Visit>
   void for_each_node(const Visit& visit) {
     const int edge = block_edge(dim_);
-    for (NodeBlock& block : grid().node_blocks)
+    for (NodeBlock& block : grid().node_blocks())
       for (int n = 0; n < kBlockNodes; ++n) {
         std::array<int, 3> at{};
         for (int a = dim_ - 1, rest = n; a >= 0; --a, rest /= edge)
@@ -189,8 +189,8 @@ class Rig {
     return power;
   }
   void gather() {
-    for (std::size_t p = 0; p < grid().patches.size(); ++p)
-      kernels_->gather(grid().patches[p], grid(), data_, settings_, scratch(p), GatherPart::all);
+    for (std::size_t p = 0; p < grid().patches().size(); ++p)
+      kernels_->gather(grid().patches()[p], grid(), data_, settings_, scratch(p), GatherPart::all);
   }
   /// dt L of a point after the gather, tensor axes.
   double step_gradient(int patch, int point, int i, int a) const {
@@ -207,7 +207,7 @@ class Rig {
         .data()[point / kLanes * data_.columns.local_stride + offset + kLanes * k + point % kLanes];
   }
   SweepScratch scratch(std::size_t p) {
-    const auto groups = static_cast<std::size_t>(grid().patches[p].groups());
+    const auto groups = static_cast<std::size_t>(grid().patches()[p].points.groups());
     local_[p].reserve(groups * static_cast<std::size_t>(data_.columns.local_stride));
     pressures_.reserve(groups * kLanes);
     leavers_.resize(std::max(leavers_.size(), groups));

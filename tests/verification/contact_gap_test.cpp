@@ -83,7 +83,7 @@ double across(const BlockGrid& grid, int axis) {
   const GridGeometry& geometry = grid.geometry();
   const int edge = block_edge(geometry.dimension);
   double most = 0;
-  for (const NodeBlock& block : grid.node_blocks)
+  for (const NodeBlock& block : grid.node_blocks())
     for (int n = 0; n < kBlockNodes; ++n) {
       int at = n;
       for (int a = geometry.dimension - 1; a > axis; --a) at /= edge;

@@ -59,17 +59,18 @@ TEST_SUITE("verification") {
       audit.kinetic = 100 - loss;
       CHECK_NOTHROW(watch.check(audit));
     }
-    audit.kinetic = 80, audit.internal = 65, audit.transfer_out = -45;
+    audit.kinetic = 80, audit.internal = 65, audit.transfer_gain = -45;
     CHECK_NOTHROW(watch.check(audit));
     audit.internal = 95;  // 75 J too many, more than half of the greatest so far, 145 J
     CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("transfer between points and grid"),
                          EnergyError);
     audit.external_work = 80;  // it was work from outside
     CHECK_NOTHROW(watch.check(audit));
-    audit.contact_work = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("contact work is nan"), EnergyError);
-    audit.contact_work = 0, audit.wall_impulse[1] = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("wall impulse"), EnergyError);
+    audit.contact_heat = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("contact_heat is nan"), EnergyError);
+    audit.contact_heat = 0, audit.wall_impulse[1] = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("wall_impulse_1 is inf"),
+                         EnergyError);
     audit.wall_impulse = {};
     CHECK_NOTHROW(watch.check_nodes(audit, 250, {0, 0}));
     CHECK_THROWS_AS(watch.check_nodes(audit, 300, {0, 0}), EnergyError);

@@ -14,9 +14,10 @@ using namespace krater;
 using namespace krater::test;
 
 std::size_t scattered_ahead(const Run& run) {
-  const std::vector<Patch>& patches = std::as_const(*run.sim).grid().patches;
-  return static_cast<std::size_t>(
-      std::count_if(patches.begin(), patches.end(), [](const Patch& p) { return p.tile_ahead; }));
+  const std::vector<Patch>& patches = std::as_const(*run.sim).grid().patches();
+  return static_cast<std::size_t>(std::count_if(patches.begin(), patches.end(), [](const Patch& p) {
+    return p.tile.state == Tile::State::ahead;
+  }));
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ TEST_SUITE("verification") {
         most = std::max(most, scattered_ahead(run)), least = std::min(least, scattered_ahead(run));
       }
       CHECK(most > 0);  // both kinds of patches were there
-      CHECK(least < run.sim->grid().patches.size());
+      CHECK(least < run.sim->grid().patches().size());
     }
   }
 

@@ -67,8 +67,8 @@ def price(run):
     if not run:
         return ["-"] * 3
     start = run.audit("initial_energy")
-    transfer = 100 * (run.audit("transfer_in") + run.audit("transfer_out")) / start
-    return [f"{run.error:.2f}", f"{transfer:.2f}", f"{100 * run.audit('time_centring') / start:.2f}"]
+    transfer = 100 * (run.audit("transfer_loss") + run.audit("transfer_gain")) / start
+    return [f"{run.error:.2f}", f"{transfer:.2f}", f"{100 * run.audit('wall_heat') / start:.2f}"]
 
 
 def change(run):

@@ -10,9 +10,8 @@
 /// x_i): exact for every shape, no special knots (theory 19). With m_g, p_g, f_g of the ghost and
 /// p_0, f_0 of the plane as scattered, odd components only, the points receive
 ///   J = -2 (m_g dv_1 + dt f_g) - dt f_0 - (1 - alpha) [2 (p_g + m_g v-_1) + p_0],
-///   W = -(1 - alpha^2) L,   L = 1/2 sum p^2/m before - after the fold,
-/// where alpha is the share of their own residual that they keep (FLIP 1: the fold of v- then never
-/// reaches them).
+/// where alpha is the share that they keep of the mean residual of their cell (FLIP and TFLIP 1:
+/// the fold of v- then never reaches them). These planes do no work.
 ///
 /// Planes that push - wall, velocity: unilateral, after the momentum update. The plane may lie
 /// beside its node line, which is then delta cells beyond it, |delta| <= 1/2. Held, a column moves
@@ -24,12 +23,14 @@
 /// volume criterion of theory 19 against the material's own fill, so that it also holds at the rim
 /// of a foot; over (1 2 1)/4 of the columns, for one column tells no gap from a lattice. Then
 /// Coulomb friction |J_t| <= mu J_n against the slip; infinite: sticks. A plane with a velocity
-/// travels with it from its side inwards. v- stays as scattered.
+/// travels with it from its side inwards. v- stays as scattered. The work of a side is
+/// J.v_plane; what a column loses beyond it is heat of its three nodes (contact/impulse_heat.hpp).
 ///
 /// open: nothing; points that leave are removed and accounted.
 #include <array>
 #include <vector>
 
+#include "krater/contact/impulse_heat.hpp"
 #include "krater/contact/options.hpp"
 #include "krater/grid/blocks.hpp"
 
@@ -39,9 +40,8 @@ using BoundaryConditions = std::array<std::array<Boundary, 2>, 3>;  ///< [axis][
 
 /// What the planes did in one step.
 struct BoundaryWork {
-  double work = 0;                  ///< change of the grid's kinetic energy [J]
-  double force_correction = 0;      ///< change of the work of the nodal forces, part of `work` [J]
-  double fold_work = 0;             ///< by planes that fold: on the way from the points [J]
+  double change = 0;                ///< of the grid's kinetic energy [J]
+  double work = 0;                  ///< of the sides, from outside [J]
   std::array<double, 3> impulse{};  ///< on the points [N s]
   int columns_in_contact = 0;
 };
@@ -71,6 +71,10 @@ class BoundarySet {
   double step() const { return step_; }
   /// Where the plane is at the end of the step: as a storage coordinate, and whether x is beyond.
   double last_storage(int axis, int side) const;
+  /// Distance that a point keeps from a lower plane of symmetry [cells]: on the axis itself
+  /// sigma_tt/r and v_r/r would not be numbers.
+  static constexpr double kClearance = 1e-9;
+  double clearance(int axis) const;
   bool beyond(int axis, int side, double x) const;
   /// Fixed reference: nodes hold [m, sum S m x, ..]: how far the material of each wall column is
   /// from the wall.
@@ -79,6 +83,9 @@ class BoundarySet {
   void fold();
   /// Planes that push: change v+ and dv of [v+, m, dv, V]; after the momentum update.
   BoundaryWork constrain();
+  /// What they took becomes heat of the nodes, which hold k; returns it [J]. After mirror(), when
+  /// every v+ is final.
+  double heat();
   /// Give ghosts the mirrored values the gather reads.
   void mirror() const;
   /// Call call(ghost, inner node) for each column of the planes that are not open.
@@ -103,8 +110,9 @@ class BoundarySet {
   };
   struct Column {
     double *ghost, *plane, *inner;
-    bool moves_points;  ///< the field is not that of a rigid body
-    double gap;         ///< fixed reference: distance of the plane's material from the wall [m]
+    bool moves_points;                ///< the field is not that of a rigid body
+    std::array<std::size_t, 3> held;  ///< of a plane that pushes: its nodes in held_
+    double gap;  ///< fixed reference: distance of the plane's material from the wall [m]
     Folded folded;
     std::array<const double*, 4> beside;  ///< nodes of the plane that lie next to its own ...
     std::array<int, 4> columns_beside;    ///< ... and their columns, -1: none
@@ -114,9 +122,8 @@ class BoundarySet {
     int axis, side;
     double inward;  ///< +1 lower, -1 upper
     const Boundary* condition;
-    int line = 0;          ///< storage index of the plane's node line
-    double beyond = 0;     ///< delta: how far that line lies outside the plane [cells]
-    double fold_loss = 0;  ///< of the last fold() [J]
+    int line = 0;       ///< storage index of the plane's node line
+    double beyond = 0;  ///< delta: how far that line lies outside the plane [cells]
     std::vector<Column> columns;
     bool odd(int component) const {
       return component == axis || condition->kind == BoundaryKind::sticky;
@@ -126,6 +133,7 @@ class BoundarySet {
   struct Held {
     double* node;
     std::array<double, kNodeDoubles> before;
+    std::array<double, 3> last;  ///< v+ before the plane under way
   };
   void place(Plane& plane) const;
   void add_columns(BlockGrid& grid, Plane& plane) const;
@@ -135,6 +143,7 @@ class BoundarySet {
   void fold_column(Plane& plane, Column& column) const;
   bool touches(const Plane& plane, const Column& column) const;
   bool hold(const Plane& plane, const Column& column) const;
+  void note_push(const Plane& plane, const Column& column, BoundaryWork& sum);
 
   GridGeometry geometry_;
   BoundaryConditions conditions_;
@@ -143,6 +152,7 @@ class BoundarySet {
   std::vector<bool> rigid_;  ///< by field; beyond the list: no
   std::vector<Plane> planes_;
   std::vector<Held> held_;  ///< each node once, in the order of memory
+  ImpulseHeat heat_;
 };
 
 }  // namespace krater

@@ -6,7 +6,7 @@
 ///   J_n = m_A m_B/(m_A + m_B) (v_A - v_B).n > 0,   J_t = min(mu J_n, the sticking value)
 /// against the slip, +J and -J, while they approach and touch; after the forces, before the walls.
 /// Linear and angular momentum are exact: both impulses act at one node. First contact on the grid
-/// is inelastic; its loss is booked, friction apart.
+/// is inelastic; its loss is heat of the node, once for all fields (contact/impulse_heat.hpp).
 ///
 /// Filling. phi_k = sum S V_p / (volume that S covers), 1 where body k fills the node; at closed
 /// sides the covered volume ends at the plane and phi is mirrored.
@@ -37,6 +37,7 @@
 #include <vector>
 
 #include "krater/contact/boundary.hpp"
+#include "krater/contact/impulse_heat.hpp"
 #include "krater/contact/rigid.hpp"
 #include "krater/points/columns.hpp"
 
@@ -44,14 +45,12 @@ namespace krater {
 
 /// What contact did in one step.
 struct ContactWork {
-  double work = 0;              ///< change of the grid's kinetic energy [J]
-  double force_correction = 0;  ///< change of the work of the nodal forces, part of `work` [J]
-  double friction = 0;          ///< work of the tangential impulses, part of `work` [J]
-  double nodes = 0;             ///< pairs that pushed
-  double driven = 0;            ///< work of prescribed rigid bodies on others, part of `work` [J]
+  double change = 0;    ///< of kinetic energy, rigid bodies included [J]
+  double friction = 0;  ///< work of the tangential impulses, part of `change` [J]
+  double nodes = 0;     ///< pairs that pushed
+  double driven = 0;    ///< work of prescribed rigid bodies on others, part of `change` [J]
   void add(const ContactWork& o) {
-    work += o.work;
-    force_correction += o.force_correction;
+    change += o.change;
     friction += o.friction;
     nodes += o.nodes;
     driven += o.driven;
@@ -70,6 +69,9 @@ class ContactSet {
   /// bodies unless the nodes are only those of a projection. Field k is body k.
   ContactWork apply(BlockGrid& grid, const std::vector<PointColumns>& columns, RigidBodies& rigid,
                     bool projection = false);
+  /// What the pushes of the last call took from motion becomes heat of the nodes, which hold k
+  /// (contact/impulse_heat.hpp); returns it [J]. When every v+ is final.
+  double heat();
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -87,6 +89,12 @@ class ContactSet {
     Eigen::Matrix<double, 6, 1> push = Eigen::Matrix<double, 6, 1>::Zero();
     Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
   };
+  /// What a rigid body gives one node, whose loss it shares.
+  struct RigidPush {
+    std::size_t loss;
+    int body;
+    Eigen::Vector3d place, impulse;
+  };
   struct Group {
     std::size_t first;                  ///< of the node blocks with one key ...
     int fields;                         ///< ... one per field
@@ -95,9 +103,16 @@ class ContactSet {
     std::vector<double> inverse;        ///< 1/covered volume, per padded node
     std::vector<Contact> contacts;      ///< of the step, in order of their nodes
     std::vector<RigidShare> shares;     ///< of the step
+    ImpulseHeat heat;                   ///< of the step
+    std::vector<RigidPush> rigid_pushes;
+  };
+  struct Before {
+    double* node;
+    std::array<double, 3> velocity;
   };
   struct Scratch {
     std::vector<double> filling;  ///< per field, padded by two nodes on each side
+    std::vector<Before> before;   ///< fields of a node, before they push
   };
   /// A deformable field's node, struck by a rigid body.
   struct Strike {
@@ -119,13 +134,16 @@ class ContactSet {
                      Scratch& scratch, const RigidBodies& rigid) const;
   void refine(const BlockGrid& grid, const std::vector<PointColumns>& columns, const Group& group,
               Contact& contact) const;
+  template <class Touch>
+  void exchange_node(BlockGrid& grid, Group& group, std::size_t first, std::size_t end,
+                     const Touch& touch) const;
   ContactWork exchange_group(BlockGrid& grid, Group& group, const RigidBodies& rigid) const;
-  void hand_over(RigidBodies& rigid, ContactWork& sum) const;
+  void hand_over(RigidBodies& rigid, ContactWork& sum);
   void foretell(const BlockGrid& grid, RigidBodies& rigid);
   Strike strike_of(const BlockGrid& grid, const Group& group, const Contact& contact,
                    bool a_is_rigid) const;
   void probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const;
-  void exchange(const Strike& strike, const RigidTwist& twist, RigidShare& share,
+  void exchange(const Strike& strike, const RigidTwist& twist, Group& group,
                 ContactWork& sum) const;
   static RigidShare& share_of(Group& group, int body);
   void link(const BlockGrid& grid, Group& group) const;
@@ -144,7 +162,8 @@ class ContactSet {
   int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;
   std::vector<RigidTwist> twists_;  ///< by body: velocities that nodes meet in this step
-  std::vector<Scratch> scratch_;
+  mutable std::vector<Scratch> scratch_;
+  std::vector<double> heats_;
   std::vector<ContactWork> results_;
 };
 

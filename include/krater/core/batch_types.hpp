@@ -43,9 +43,16 @@ struct BatchData {
   int count;        ///< number of points; lanes past it in the last group are padding with mass 0
   int first_group;  ///< index of the first group in the patch, for faults
   double dt;        ///< [s]
-  double length;    ///< cell size h [m], for viscosity
+  /// Width over which a point's motion is resolved [m], for viscosity and time step: 8 per group,
+  /// `length_stride` apart; 0 where all points have the same, as on a grid.
+  const double* length;
+  int length_stride;
   Ledger* ledger;
   Fault* fault;
+  /// Share of the step's work that the stages book in the energy: all of it where matter stands
+  /// alone; none where a ledger has booked it (kinematics/mpm/ledger.hpp). The energy then is that
+  /// of the middle of the step, half a step behind the pressure.
+  double energy_share = 1;
 };
 
 }  // namespace krater

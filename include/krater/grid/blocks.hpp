@@ -15,11 +15,13 @@
 /// ghost beyond it 0.
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "krater/core/aligned.hpp"
 #include "krater/core/batch_types.hpp"
 #include "krater/grid/key_index.hpp"
+#include "krater/points/store.hpp"
 
 namespace krater {
 
@@ -62,52 +64,65 @@ struct Outbox {
 
 /// What one sweep over a patch leaves behind; combined over patches in patch order.
 struct PatchResult {
-  double max_rate = 0;       ///< max (|v| + signal speed)/h, or |tr D|/0.1 [1/s]
-  int limiter = 0;           ///< 0 wave, 1 flow, 2 dilatation
-  int limiting_point = 0;    ///< index in the patch; after the gather the point's id
-  double kinetic = 0;        ///< [J], affine part included
-  double internal = 0;       ///< [J]
-  double external_work = 0;  ///< [J] of body forces in the step
-  double stretch = 0;        ///< fixed reference: largest |F^T F - I|
+  double max_rate = 0;                    ///< max (|v| + signal speed)/h, or |tr D|/0.1 [1/s]
+  int limiter = 0;                        ///< 0 wave, 1 flow, 2 dilatation
+  int limiting_point = 0;                 ///< index in the patch; after the gather the point's id
+  double kinetic = 0;                     ///< [J], affine part included
+  double internal = 0;                    ///< [J]
+  double external_work = 0;               ///< [J] of body forces in the step
+  double heat_given = 0, heat_taken = 0;  ///< [J] of the ledger, sums over cells with either sign
+  double carried = 0, carriers = 0;       ///< [J] owed by points, negative; cells that came short
+  double stretch = 0;                     ///< fixed reference: largest |F^T F - I|
   Ledger ledger;
   Fault fault;
+};
+
+/// The nodes that the points of a patch scatter into, and what they hold.
+struct Tile {
+  enum class State {
+    stale,   ///< of an earlier state of the points
+    ahead,   ///< of the present one, scattered in the sweep that made it
+    asleep,  ///< of the present one, and the last sweep changed no bit of the points
+  };
+  AlignedBuffer nodes;  ///< tile_nodes * kNodeDoubles
+  State state = State::stale;
+  KRATER_FORCE_INLINE double* data() { return nodes.data(); }
+  KRATER_FORCE_INLINE const double* data() const { return nodes.data(); }
+};
+
+/// Where a patch lies among the others, filled by BlockGrid::rebuild().
+struct PatchLinks {
+  std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim
+  std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
 };
 
 struct Patch {
   BlockKey key;
   int body = 0;
   int field = 0;  ///< velocity field of the body, filled by rebuild
-  int count = 0;
-  AlignedBuffer records;             ///< lane groups of the body's layout
-  AlignedBuffer tile;                ///< tile_nodes * kNodeDoubles
-  AlignedBuffer beta;                ///< per cell: 1 averaged .. 0 shock
-  AlignedBuffer pressure_tile;       ///< of a fluid, as long as `tile`, then a weight per cell
-  bool owns_cells = false;           ///< the first fluid of its field in its block
-  std::array<int, 8> node_blocks{};  ///< at key + {0,1}^dim, filled by rebuild
-  std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
-  bool settled = false;       ///< the last gather found everything at rest and changed nothing
-  bool tile_current = false;  ///< asleep: the tile is that of the present state
-  bool tile_ahead = false;    ///< so it is awake: scattered in the same sweep as the gather
-  bool steady = false;        ///< no point came or left in the last step
+  PointStore points;
+  Tile tile;
+  AlignedBuffer beta;           ///< per cell: 1 averaged .. 0 shock
+  AlignedBuffer pressure_tile;  ///< of a fluid, as long as `tile`, then a weight per cell
+  bool owns_cells = false;      ///< the first fluid of its field in its block
+  bool settled = false;         ///< the last gather found everything at rest and changed nothing
+  bool steady = false;          ///< no point came or left in the last step
+  PatchLinks links;
   Outbox outbox;
   PatchResult result;
-  int groups() const { return (count + 7) / 8; }
+
+  /// The points, or some of them, were changed from outside the sweeps.
+  void touch() {
+    settled = false;
+    tile.state = Tile::State::stale;
+  }
+  /// One point as stride/8 doubles; points.pad() afterwards.
+  void append(const double* point) {
+    touch();
+    steady = false;
+    points.append(point);
+  }
 };
-
-/// Component at `offset` (doubles in the record of a lane group of `stride`) of point i.
-inline double& component(Patch& patch, int stride, int offset, int i) {
-  return patch.records.data()[static_cast<std::size_t>(i / 8) * static_cast<std::size_t>(stride) +
-                              static_cast<std::size_t>(offset + i % 8)];
-}
-
-/// Overwrite point `to` by point `from`.
-void copy_point(Patch& patch, int stride, int from, int to);
-
-/// Make the padding lanes of the last group copies of the last point with mass 0.
-void pad(Patch& patch, int stride, int mass_offset);
-
-/// Append one point given as stride/8 doubles; grows the patch. Call pad() afterwards.
-void append(Patch& patch, const double* point, int stride);
 
 struct TileRef {
   int patch;
@@ -133,15 +148,31 @@ struct NodeBlock {
   NodeSums sums;
 };
 
+/// Slot of a node's record that holds the volume, and in the gather the work k of the step [J/kg].
+inline constexpr int kNodeWork = 7;
+/// A block at rest, whose tiles may not be summed again, keeps its volumes: there k is zero.
+inline bool keeps_volumes(const NodeBlock& block) { return block.still && !block.at_boundary; }
+
 class BlockGrid {
  public:
   explicit BlockGrid(const GridGeometry& geometry) : geometry_{geometry} {}
 
   const GridGeometry& geometry() const { return geometry_; }
-  std::vector<Patch> patches;          ///< sorted by (key, body) after rebuild()
-  std::vector<NodeBlock> node_blocks;  ///< sorted by (key, field)
-  std::vector<TileRef> tile_refs;
+  /// Sorted by (key, body) after rebuild().
+  std::span<Patch> patches() { return patches_; }
+  KRATER_FORCE_INLINE const std::vector<Patch>& patches() const { return patches_; }
+  /// Sorted by (key, field).
+  std::span<NodeBlock> node_blocks() { return node_blocks_; }
+  KRATER_FORCE_INLINE const std::vector<NodeBlock>& node_blocks() const { return node_blocks_; }
+  KRATER_FORCE_INLINE const std::vector<TileRef>& tile_refs() const { return tile_refs_; }
+  /// All node blocks lie in one piece of memory, in their order.
+  KRATER_FORCE_INLINE double* nodes() { return node_memory_.data(); }
+  KRATER_FORCE_INLINE const double* nodes() const { return node_memory_.data(); }
 
+  /// A patch without points; rebuild() afterwards. Indices and references of patches change.
+  Patch& add_patch(const BlockKey& key, int body, int stride);
+  /// Drop the patches of a body, or all of them; rebuild() afterwards.
+  void drop_patches(int body = -1);
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
   void set_fields(std::vector<int> field_of_body) { field_of_body_ = std::move(field_of_body); }
   int find_patch(const BlockKey& key, int body) const;        ///< -1: none
@@ -156,6 +187,9 @@ class BlockGrid {
   void link_patches();
 
   GridGeometry geometry_;
+  std::vector<Patch> patches_;
+  std::vector<NodeBlock> node_blocks_;
+  std::vector<TileRef> tile_refs_;
   std::vector<int> field_of_body_;
   KeyIndex patch_index_, node_index_;
   AlignedBuffer node_memory_;

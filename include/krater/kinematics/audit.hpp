@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file kinematics/audit.hpp
-/// The telescopic energy audit (theory 11). Each step's entries are measured from their own two
-/// sides:
-///   transfer_in   = KE_points - 1/2 sum m_I |v-|^2
-///   work of internal forces, body forces, walls: their sum is the grid's change of kinetic energy
-///   transfer_out  = 1/2 sum m_I |v+|^2 - KE_points,new
-///   time_centring = - W_int - dIE,   dIE = sum m de
-///   residual      = d(KE + IE) + transfer_in + transfer_out + time_centring
-///                   - W_ext - W_wall - W_contact + removed
-/// The residual is an arithmetic check (round-off); the quality figure is energy_error_fraction.
+/// The account of energy (theory 11). The ledger (kinematics/mpm/ledger.hpp) makes heat of what the
+/// motion of points loses in a step, so that
+///   residual = kinetic + internal + removed - (start + work from outside)
+/// is round-off: work of body forces, of driven rigid bodies and driven sides. What became heat is
+/// known by its cause: contact, walls, and the transfer between points and grid, which also takes
+/// heat back where it made motion. Heat that could not be taken back without cooling matter below
+/// absolute zero is carried by its points as a debt, part of their internal energy.
 #include <array>
 #include <cmath>
 
@@ -32,10 +30,18 @@ struct Removed {
 struct Audit {
   double kinetic = 0, internal = 0;  ///< of the points, now [J]
   double initial_kinetic = 0, initial_internal = 0;
-  double transfer_in = 0, transfer_out = 0, time_centring = 0;  ///< sums over all steps [J]
-  double internal_work = 0, external_work = 0, wall_work = 0;
-  double contact_work = 0;   ///< normal and friction [J]
-  double friction_work = 0;  ///< part of contact_work [J]
+  /// Sums over cells and steps of what the ledger gave as heat, and took back (negative) [J];
+  /// contact and walls apart.
+  double transfer_loss = 0, transfer_gain = 0;
+  double numerical_heat = 0;  ///< of these, in matter whose pressure does not know its energy
+  double carried = 0;         ///< heat that could not be taken, owed by points now (negative) [J]
+  double largest_carried = 0, carriers = 0;  ///< the most so far; cells and steps that came short
+  double contact_heat = 0;   ///< what contact took from motion, friction included [J]
+  double friction_work = 0;  ///< of tangential impulses, negative [J]
+  double rigid_loss = 0;     ///< of turning rigid bodies, by the steps of their turn [J]
+  double wall_heat = 0;      ///< what sides of the domain took from motion [J]
+  double external_work = 0;  ///< of body forces and driven rigid bodies [J]
+  double wall_work = 0;      ///< of sides of the domain that move, from outside [J]
   double removed_energy = 0, removed_mass = 0, removed_points = 0;
   double removed_failed = 0;  ///< of the removed points, those removed by failure
   std::array<double, 3> removed_momentum{}, wall_impulse{};
@@ -50,18 +56,14 @@ struct Audit {
   double step_external = 0;  ///< work of body forces in the step under way [J]
   double peak_energy = 0;    ///< greatest kinetic + internal + removed energy so far [J]
 
-  /// Energies at the start of a step: points' kinetic and internal, grid's kinetic before and after
-  /// the forces [J].
-  struct StepEnergies {
-    double kinetic, internal, grid_before, grid_after;
+  /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
+  /// included.
+  struct StepHeat {
+    double given = 0, taken = 0, contact = 0, walls = 0;
+    double numerical = 0;  ///< of given and taken, where the pressure does not know the energy
+    double carried = 0, carriers = 0;
   };
-  /// Change of the grid's kinetic energy by planes or contact [J], of which `correction` belongs to
-  /// the forces: their power is taken with the velocity that the points see.
-  struct Constraint {
-    double work = 0, correction = 0;
-  };
-  /// Book a step whose new kinetic and internal energy are already in place.
-  void book_step(const StepEnergies& e, const Constraint& walls, const Constraint& contact);
+  void book_step(const StepHeat& heat);
   void book_events(const Ledger& ledger);
   /// Walls that acted as body forces on points (fixed reference) during dt; `alone`: no other body
   /// force did, so that their work can be told apart.
@@ -73,18 +75,79 @@ struct Audit {
   /// (KE + IE now) - (at the start) + everything booked as gone or come: zero but for round-off
   /// [J].
   double residual(double measured_kinetic, double measured_internal) const {
-    return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) +
-           transfer_in + transfer_out + time_centring - external_work - wall_work - contact_work +
-           removed_energy;
+    return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) -
+           external_work - wall_work + removed_energy + rigid_loss;
   }
-  /// (sum of transfers + time centring) / E_0, signed: what the scheme itself lost (positive) or
-  /// gained. E_0 is the energy at the start, or the work of loads and sides where a scene starts
-  /// without any.
-  double error_fraction() const {
+  /// Energy at the start, or the work of loads and sides where a scene starts without any [J].
+  double scale() const {
     const double start = initial_kinetic + initial_internal;
-    const double scale = start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
-    return scale != 0 ? (transfer_in + transfer_out + time_centring) / scale : 0.0;
+    return start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
+  }
+  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that
+  /// nothing feels, heat that is owed. All of it as magnitudes.
+  double error_fraction() const {
+    if (scale() == 0) return 0;
+    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried) +
+            std::abs(rigid_loss)) /
+           scale();
   }
 };
+
+/// visit(name, entry) of all entries in the order of their memory: what a checkpoint keeps, and what
+/// must be a number.
+template <class Account, class Visit>
+constexpr void for_each_entry(Account& a, const Visit& visit) {
+  visit("kinetic", a.kinetic);
+  visit("internal", a.internal);
+  visit("initial_kinetic", a.initial_kinetic);
+  visit("initial_internal", a.initial_internal);
+  visit("transfer_loss", a.transfer_loss);
+  visit("transfer_gain", a.transfer_gain);
+  visit("numerical_heat", a.numerical_heat);
+  visit("carried", a.carried);
+  visit("largest_carried", a.largest_carried);
+  visit("carriers", a.carriers);
+  visit("contact_heat", a.contact_heat);
+  visit("friction_work", a.friction_work);
+  visit("wall_heat", a.wall_heat);
+  visit("external_work", a.external_work);
+  visit("wall_work", a.wall_work);
+  visit("removed_energy", a.removed_energy);
+  visit("removed_mass", a.removed_mass);
+  visit("removed_points", a.removed_points);
+  visit("removed_failed", a.removed_failed);
+  visit("removed_momentum_0", a.removed_momentum[0]);
+  visit("removed_momentum_1", a.removed_momentum[1]);
+  visit("removed_momentum_2", a.removed_momentum[2]);
+  visit("wall_impulse_0", a.wall_impulse[0]);
+  visit("wall_impulse_1", a.wall_impulse[1]);
+  visit("wall_impulse_2", a.wall_impulse[2]);
+  visit("plastic_work", a.plastic_work);
+  visit("viscous_work", a.viscous_work);
+  visit("plastic_heating", a.plastic_heating);
+  visit("sound_speed_floors", a.sound_speed_floors);
+  visit("hugoniot_poles", a.hugoniot_poles);
+  visit("reflections", a.reflections);
+  visit("retries", a.retries);
+  visit("penetrations", a.penetrations);
+  visit("deepest_reflection", a.deepest_reflection);
+  visit("failures", a.failures);
+  visit("snap_backs", a.snap_backs);
+  visit("spalls", a.spalls);
+  visit("new_references", a.new_references);
+  visit("contact_pairs", a.contact_pairs);
+  visit("wall_columns", a.wall_columns);
+  visit("step_external", a.step_external);
+  visit("peak_energy", a.peak_energy);
+}
+
+/// None is forgotten.
+constexpr std::size_t audit_entries() {
+  std::size_t n = 0;
+  Audit audit;
+  for_each_entry(audit, [&n](const char*, double&) { ++n; });
+  return n;
+}
+static_assert(sizeof(Audit) == audit_entries() * sizeof(double));
 
 }  // namespace krater

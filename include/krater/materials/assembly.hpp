@@ -7,7 +7,11 @@
 /// effective deviator on in a local record:
 ///   start -> trial -> return -> growth of damage -> carried stress             coupling: effective
 ///   start -> trial -> flow stress -> growth -> return with damage -> carried   coupling: rate
-/// so that neither rates nor damage laws multiply the compiled yield laws.
+/// so that neither rates nor damage laws multiply the compiled yield laws. A coupled law takes the
+/// place of strength, damage and eos:
+///   start -> trial -> model
+/// With an equation of state whose solid parts, two stages stand about those of the strength
+/// (materials/stages/cohesion_stage.hpp).
 #include <limits>
 #include <memory>
 #include <string>
@@ -32,6 +36,7 @@ struct PlannedLaw {
 struct MaterialPlan {
   MaterialConstants constants;
   PlannedLaw eos, strength, damage, viscosity, heating;
+  PlannedLaw model;  ///< in place of the first three
   Rate rate = Rate::truesdell;
   Coupling coupling = Coupling::effective;
   DegradePressure degrade = DegradePressure::tension;

@@ -11,19 +11,24 @@
 
 #include "krater/core/parameters.hpp"
 #include "krater/materials/factories.hpp"
+#include "krater/points/fields.hpp"
 
 namespace krater {
 
 struct LawInfo {
-  std::string family;  ///< the block of the scene: strength, damage, eos, viscosity, heating
+  std::string family;  ///< the block of the scene: strength, damage, eos, model, ...
   std::string name;
   std::vector<ParameterInfo> parameters;  ///< in the order `StageFactory::make` takes their values
   std::string equation;
   std::string reference;
-  bool needs_shear_modulus;  ///< the material must have shear_modulus > 0
-  bool whole_stress;         ///< gives the pressure too: must be used without an eos
-  bool yields;               ///< strength with a yield stress: what damage and heating need
-  bool needs_eos;            ///< heating whose temperature is that of the equation of state
+  std::vector<const FieldInfo*> columns;  ///< of its own state
+  bool needs_shear_modulus;               ///< the material must have shear_modulus > 0
+  bool whole_stress;                      ///< gives the pressure too: must be used without an eos
+  bool yields;      ///< strength with a yield stress: what damage and heating need
+  bool dilates;     ///< strength whose flow opens voids
+  bool fails;       ///< model whose points fail
+  bool needs_flow;  ///< damage that grows with plastic strain: the strength must yield
+  bool needs_eos;   ///< heating whose temperature is that of the equation of state
 };
 
 const std::vector<LawInfo>& catalogue();
@@ -45,6 +50,10 @@ bool law_degrades(int law, const double* values, const MaterialConstants& consta
 /// [J/kg]; nothing where the temperature counts from the start.
 std::optional<double> thermal_energy_at_start(int law, const double* values,
                                               const MaterialConstants& constants);
+
+/// Bulk sound speed at rest of an equation of state or a model [m/s]; nothing of other laws.
+std::optional<double> sound_speed_at_rest(int law, const double* values,
+                                          const MaterialConstants& constants);
 
 /// What is wrong between parameters that are each in range (T_melt below T_ref), or nullptr.
 const char* law_problem(int law, const double* values, const MaterialConstants& constants);

@@ -18,8 +18,10 @@
 namespace krater {
 
 /// The block of a scene that names a law.
-enum class Family : int { strength, damage, eos, viscosity, heating };
-inline constexpr const char* kFamilyNames[] = {"strength", "damage", "eos", "viscosity", "heating"};
+/// `model`: strength, pressure and damage in one (model/coupled.hpp).
+enum class Family : int { strength, damage, eos, viscosity, heating, model };
+inline constexpr const char* kFamilyNames[] = {"strength",  "damage",  "eos",
+                                               "viscosity", "heating", "model"};
 
 }  // namespace krater
 

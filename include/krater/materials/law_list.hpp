@@ -8,6 +8,7 @@
 #include "krater/materials/damage/johnson_cook.hpp"
 #include "krater/materials/damage/lemaitre.hpp"
 #include "krater/materials/damage/strain_criteria.hpp"
+#include "krater/materials/damage/tuler_butcher.hpp"
 #include "krater/materials/eos/jwl.hpp"
 #include "krater/materials/eos/linear.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
@@ -17,6 +18,7 @@
 #include "krater/materials/eos/tillotson.hpp"
 #include "krater/materials/heating/internal_energy.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
+#include "krater/materials/model/holmquist_johnson_cook.hpp"
 #include "krater/materials/strength/drucker_prager.hpp"
 #include "krater/materials/strength/elastic.hpp"
 #include "krater/materials/strength/johnson_cook.hpp"
@@ -50,6 +52,7 @@ using AllLaws = LawList<Elastic,                 //
                         JohnsonCookUncoupled,    //
                         CockcroftLatham,         //
                         MaximumPlasticStrain,    //
+                        TulerButcher,            //
                         LinearEos,               //
                         MieGruneisenPolynomial,  //
                         MieGruneisenShock,       //
@@ -58,6 +61,7 @@ using AllLaws = LawList<Elastic,                 //
                         StiffenedGas,            //
                         Jwl,                     //
                         Tillotson,               //
+                        HolmquistJohnsonCook,    //
                         BulkViscosity,           //
                         PlasticWorkHeating,      //
                         EnergyHeating>;

@@ -2,7 +2,9 @@
 /// \file
 /// State columns that a law owns. A law with history declares
 ///   using State = Columns<field::Distension>;       its columns: checkpoint, output and migration
-///                                                    follow by themselves
+///                                                    follow by themselves; a column that no other
+///                                                    code knows is a struct of the law itself,
+///                                                    struct X { static constexpr FieldInfo info; }
 ///   std::array<double, N> initial_state() const     of a new point
 ///   template <class Real> auto at(const std::array<Real, N>& state) const
 /// and `at` gives the law as it is at that state: an object with the functions that the family asks
@@ -29,6 +31,7 @@ namespace krater::inline KRATER_ISA {
 template <Field... F>
 struct Columns {
   static constexpr int count = sizeof...(F);
+  static constexpr std::array<const FieldInfo*, sizeof...(F)> infos{&F::info...};
 };
 
 template <class Law>

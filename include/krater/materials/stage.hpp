@@ -63,6 +63,7 @@ struct PartRequest {
   Integrity integrity = Integrity::sound;
   bool degrades = false;  ///< the stress is (1 - phi) s~; otherwise phi only tells the failure
   DegradePressure degrade = DegradePressure::tension;
+  bool dilates = false;  ///< plastic flow opens voids
 };
 
 /// An equation of state between points that may be damaged or spall.
@@ -72,6 +73,7 @@ struct EosRequest {
   MaterialConstants constants;
   Tension tension = Tension::own;
   double spall_strength = 0;  ///< [Pa], infinite: none; of no meaning where tension is own
+  bool dilates = false;       ///< the strength keeps voids out of it, and limits the tension
 };
 
 /// `heating: energy`: the temperature of an equation of state (heating/internal_energy.hpp).
@@ -84,15 +86,32 @@ struct EnergyHeatingRequest {
   bool degrades = false;  ///< as of PartRequest
 };
 
+/// The stages that stand about those of the strength.
+struct StagesAround {
+  Stage* before = nullptr;
+  Stage* after = nullptr;
+};
+
 /// Makes stages of one instruction-set level (materials/stages_hot.cpp is compiled once per level).
 struct StageFactory {
-  /// `law`: index in catalogue() (materials/catalogue.hpp), of a family but eos and damage;
-  /// `values`: its parameters in declared order. Ownership passes to the caller.
+  /// `law`: index in catalogue() (materials/catalogue.hpp), of a family but eos and damage; a model
+  /// takes its elastic trial from parts. `values`: its parameters in declared order. Ownership
+  /// passes to the caller.
   Stage* (*make)(int law, const double* values, const MaterialConstants& constants, Layout& layout);
   Stage* (*part)(const PartRequest& request, Layout& layout);
   Stage* (*eos)(const EosRequest& request, Layout& layout);
   Stage* (*energy_heating)(const EnergyHeatingRequest& request, Layout& layout);
-  Stage* (*kinematics)(Layout& layout);  ///< always first: f -> sym H, rho, v, tr D
+  /// What the deviator loses where the solid of an equation of state has parted
+  /// (materials/stages/cohesion_stage.hpp): the stages before and after those of the strength,
+  /// both null where the law has no such end. Made when the strength's own stages are.
+  StagesAround (*cohesion)(int eos, const double* values, const MaterialConstants& constants,
+                           Layout& layout);
+  /// Heat that may be taken (materials/stages/heat_floor_stage.hpp); null where the pressure of the
+  /// law does not know the energy.
+  Stage* (*heat_floor)(int eos, const double* values, const MaterialConstants& constants,
+                       Layout& layout);
+  /// Always first: f -> sym H, rho, v, tr D, and F where it `keeps_F`.
+  Stage* (*kinematics)(bool keeps_F, Layout& layout);
   Stage* (*signal_speed)(double q_lin, double q_quad,
                          Layout& layout);  ///< always last: c_L, Qv -> signal speed
 };

@@ -46,10 +46,9 @@ class MaterialPoint {
 
  private:
   Layout layout_;
-  double length_;
   std::vector<NamedStage> stages_;
   AlignedBuffer buffer_;
-  double *state_ = nullptr, *local_ = nullptr, *zeros_ = nullptr;
+  double *state_ = nullptr, *local_ = nullptr, *zeros_ = nullptr, *length_ = nullptr;
   int gradient_ = 0;  ///< offset of f - I in the local record
   Ledger ledger_;
   Fault fault_;

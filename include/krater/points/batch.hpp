@@ -56,6 +56,8 @@ KRATER_FORCE_INLINE ReadView view(const BatchData& b, LocalOptional<F> h) {
   return h.offset < 0 ? ReadView{b.zeros, 0} : ReadView{b.local + h.offset, b.local_stride};
 }
 
+KRATER_FORCE_INLINE ReadView lengths(const BatchData& b) { return {b.length, b.length_stride}; }
+
 /// Lanes of group `g` that hold points.
 KRATER_FORCE_INLINE Mask occupied(const BatchData& b, int g) {
   return first_lanes(b.count - kLanes * g);

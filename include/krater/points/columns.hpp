@@ -15,11 +15,13 @@ struct PointColumns {
   int map = -1;            ///< fixed reference: F since then, over grid axes
   int position = -1, velocity = -1, mass = -1, density = -1;
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;
+  int carried = -1;  ///< energy owed by the point, part of the internal energy
   int removed = -1;  ///< `failed` where failure takes points out of the computation
   int failed = -1, indicator = -1, half_width = -1, body_acceleration = -1, grid_velocity = -1;
   int domain = -1, deformation = -1;
   int local_gradient = -1, local_dilatation = -1, local_signal = -1,
       local_rate = -1;        ///< local record
+  int local_heat = -1;        ///< available heat, where energy is carried
   int local_correction = -1;  ///< of a fluid, whose pressure is integrated on the grid
 };
 

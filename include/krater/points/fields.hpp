@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file points/fields.hpp
-/// Every quantity a material point can carry. A field is a type; its `info` gives name, unit,
+/// Every quantity a material point can carry, but for columns that one law alone knows: those stand
+/// in its header (materials/law_state.hpp). A field is a type; its `info` gives name, unit,
 /// components and meaning, so that output, restart, sorting and migration need no code per field.
 ///
 /// Tensor components: `xx yy zz yz xz xy`, tension positive; pressure positive in compression. Grid
@@ -54,7 +55,8 @@ KRATER_FIELD(
 KRATER_FIELD(Distension, "distension", "1", 1,
              "volume of the porous material over that of its solid: 1 without pores");
 KRATER_FIELD(Damage, "damage", "1", 1, "damage phi: 0 sound, fails at phi_c");
-KRATER_FIELD(Failed, "failed", "1", 1, "1 where the material has failed: no deviator, no tension");
+KRATER_FIELD(Failed, "failed", "1", 1,
+             "1 where the material has failed: no tension, no deviator but friction of rubble");
 KRATER_FIELD(SoundSpeed, "sound_speed", "m/s", 1, "bulk sound speed of the last update, undamaged");
 KRATER_FIELD(ShockIndicator, "shock_indicator", "1", 1,
              "|tr D| h / c of the last update: switches cell averaging off");
@@ -98,8 +100,9 @@ KRATER_FIELD(EffectiveDeviator, "effective_deviator", "Pa", 6,
              "deviator on the undamaged area: the trial, then the end of the step");
 KRATER_FIELD(EquivalentStress, "equivalent_stress", "Pa", 1, "effective q of the step");
 KRATER_FIELD(PlasticIncrement, "plastic_increment", "1", 1, "plastic strain of the step");
-KRATER_FIELD(DamageGrowth, "damage_growth", "1", 3,
-             "d phi/d eps of the step, plastic strain where growth starts, phi_c");
+KRATER_FIELD(DamageGrowth, "damage_growth", "1", 4,
+             "d phi/d eps of the step, plastic strain where growth starts, phi_c, growth without "
+             "plastic strain");
 KRATER_FIELD(SnapBack, "snap_back", "1", 1, "1 where softening snapped back in the step");
 KRATER_FIELD(CarriedLoss, "carried_loss", "1", 2,
              "1 - w of the pressure, in tension and in compression (theory 9)");

@@ -86,11 +86,11 @@ class Layout {
   /// Present only if declared before this call: ask after the writers (stages are made in stage
   /// order).
   template <Field F>
-  Optional<F> optional() {
+  Optional<F> optional() const {
     return {offset_or_absent(state_, F::info)};
   }
   template <Field F>
-  LocalOptional<F> local_optional() {
+  LocalOptional<F> local_optional() const {
     return {offset_or_absent(local_, F::info)};
   }
 

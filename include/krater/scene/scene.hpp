@@ -48,6 +48,7 @@ struct MaterialOptions {
   double density = 0, shear_modulus = 0, initial_temperature = 293;
   std::optional<double> bulk_modulus;  ///< of the elastic constants, where they give it
   std::optional<LawChoice> eos, strength, damage, viscosity, heating;  ///< absent: no such stage
+  std::optional<LawChoice> model;  ///< coupled law, in place of eos, strength and damage
   Rate rate = Rate::truesdell;
   Coupling coupling = Coupling::effective;                      ///< of damage
   DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage

@@ -49,8 +49,6 @@ class Body {
   int slot(const FieldInfo& field, int component = 0) const;
 
  private:
-  void declare_method_columns(const Scene& scene);
-  void declare_rigid_columns(const Scene& scene);
   void examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds);
   void add_stages(const StageFactory& factory);
 
@@ -58,6 +56,7 @@ class Body {
   const MaterialOptions* material_;
   Layout layout_;
   std::vector<NamedStage> stages_;
+  std::unique_ptr<const Stage> heat_floor_;
   std::vector<const Stage*> stage_pointers_;
   FillReport fill_;
   VolumeMoments seed_moments_;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "krater/kinematics/clock.hpp"
+#include "krater/kinematics/loads.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
 #include "krater/output/results.hpp"
@@ -38,17 +40,17 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   const Scene& scene() const { return scene_; }
-  double time() const { return time_; }
-  std::int64_t steps() const { return steps_; }
-  double dt() const { return dt_; }            ///< of the last step [s]
-  double dt_free() const { return dt_free_; }  ///< the same before it was cut to an output time [s]
+  double time() const { return clock_.time(); }
+  std::int64_t steps() const { return clock_.steps(); }
+  double dt() const { return clock_.dt(); }            ///< of the last step [s]
+  double dt_free() const { return clock_.free_dt(); }  ///< before it was cut to an output time [s]
   /// What the greatest speeds of the start allow; the first steps grow towards it [s].
-  double expected_dt() const { return expected_dt_; }
-  bool done() const { return time_ >= scene_.time.end; }
+  double expected_dt() const { return clock_.expected_dt(); }
+  bool done() const { return time() >= scene_.time.end; }
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
   bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
-  double stable_step() const { return scene_.time.cfl / limit_.rate; }  ///< of the next step [s]
+  double stable_step() const { return clock_.stable_step(limit_.rate); }  ///< of the next step [s]
   const char* limiter() const;         ///< what limits the time step
   std::string describe_limit() const;  ///< the same with the point and what it has
   int limiter_kind() const {
@@ -57,30 +59,27 @@ class Simulation {
 
   IsaLevel isa_level() const { return level_; }
   std::size_t point_count() const;
-  std::size_t block_count() const { return grid_.patches.size(); }
+  std::size_t block_count() const { return grid_.patches().size(); }
   double bytes_per_point() const;
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
   const BlockGrid& grid() const { return grid_; }
   BlockGrid& grid() { return grid_; }
   const RigidBodies& rigid() const { return rigid_; }
   const MpmStep& stepper() const { return *step_; }
-  const Audit& audit() const { return step_->audit(); }
+  const Audit& audit() const { return audit_; }
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
   Totals totals(int body = -1) const;  ///< of one body, or of all
 
-  /// Call visit(patch, index in the patch) for every point of a body in order of its id.
+  /// All points, in sets of one body; the order is part of the state.
+  int set_count() const { return step_->set_count(); }
+  PointSet set(int s) const { return step_->set(s); }
+  /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
   /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
-  double value(int patch, int point, int slot) const {
-    const Patch& p = grid_.patches[static_cast<std::size_t>(patch)];
-    const int stride = kernel_data_[static_cast<std::size_t>(p.body)].columns.stride;
-    return p.records
-        .data()[static_cast<std::size_t>(point / kLanes) * static_cast<std::size_t>(stride) +
-                static_cast<std::size_t>(kLanes * slot + point % kLanes)];
-  }
-  void set_value(int patch, int point, int slot, double x);
+  double value(int s, int point, int slot) const { return set(s).points->at(kLanes * slot, point); }
+  void set_value(int set, int point, int slot, double x);
   /// After set_value: what it changed of the energy is work from outside.
   void book_change();
 
@@ -93,7 +92,6 @@ class Simulation {
   void place_rigid_bodies();
   void save_body(int body, Checkpoint& out) const;
   void restore_body(int body, const Checkpoint& checkpoint);
-  void load_rigid_bodies();  ///< body force on them
   void choose_first_step();
   void apply_body_force();
   bool walls_act_on_points() const;
@@ -116,14 +114,12 @@ class Simulation {
   RigidBodies rigid_;
   EnergyWatch energy_watch_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
+  Audit audit_;
   std::unique_ptr<MpmStep> step_;
-  double time_ = 0, dt_ = 0, dt_free_ = 0,
-         min_step_ = 0;                      ///< dt_free_: before clipping to output times
-  double first_step_ = 0, expected_dt_ = 0;  ///< [s]
-  TimeStepLimit limit_;                      ///< of the next step
+  StepClock clock_;
+  TimeStepLimit limit_;  ///< of the next step
   bool broken_ = false;
   Warnings warnings_;
-  std::int64_t steps_ = 0;
 };
 
 }  // namespace krater

@@ -23,6 +23,20 @@ const char* name_of(IsaLevel level) {
   return "portable";
 }
 
+namespace {
+
+bool is_built(IsaLevel level) {
+#if defined(KRATER_HAVE_V3)
+  if (level == IsaLevel::v3) return true;
+#endif
+#if defined(KRATER_HAVE_V4)
+  if (level == IsaLevel::v4) return true;
+#endif
+  return level == IsaLevel::portable;
+}
+
+}  // namespace
+
 IsaLevel best_isa_level() {
   IsaLevel best = IsaLevel::portable;
 #if defined(KRATER_HAVE_V3)
@@ -44,7 +58,7 @@ IsaLevel best_isa_level() {
   if (name != "portable" && name != "v3" && name != "v4")
     throw InputError("KRATER_ISA=" + std::string{name} +
                      " in the environment: known are portable, v3, v4");
-  if (asked > best)
+  if (asked > best || !is_built(asked))
     throw InputError("KRATER_ISA=" + std::string{name} +
                      ": this processor or build does not have it");
   return asked;

@@ -18,25 +18,25 @@ constexpr double kRoundOff = 1e-9;
 
 /// A column of a tensor over tensor axes or grid axes: its image in a plane across `axis`.
 /// `row_sign`: of each row; each column changes sign where it is `axis`.
-void mirror_matrix(Patch& patch, int stride, int offset, int size, int axis,
+void mirror_matrix(PointStore& points, int offset, int size, int axis,
                    const std::array<double, 3>& row_sign, int i) {
   if (offset < 0) return;
   for (int row = 0; row < size; ++row)
     for (int k = 0; k < size; ++k) {
       const double sign = row_sign[static_cast<unsigned>(row)] * (k == axis ? -1.0 : 1.0);
       if (sign < 0) {
-        double& x = component(patch, stride, offset + kLanes * (size * row + k), i);
+        double& x = points.at(offset + kLanes * (size * row + k), i);
         x = -x;
       }
     }
 }
 
 /// Shear components of a symmetric tensor xx yy zz yz xz xy that change sign across tensor axis n.
-void mirror_shear(Patch& patch, int stride, int offset, int n, int i) {
+void mirror_shear(PointStore& points, int offset, int n, int i) {
   if (offset < 0) return;
   for (int k = 0; k < 3; ++k)
     if (k != n) {
-      double& x = component(patch, stride, offset + kLanes * (6 - n - k), i);
+      double& x = points.at(offset + kLanes * (6 - n - k), i);
       x = -x;
     }
 }
@@ -48,7 +48,7 @@ void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry,
   const int dim = geometry.dimension;
   const Boundary& plane =
       boundary.conditions()[static_cast<unsigned>(axis)][static_cast<unsigned>(side)];
-  double& x = component(patch, c.stride, c.position + kLanes * axis, i);
+  double& x = patch.points.at(c.position + kLanes * axis, i);
   const double at = boundary.position(axis, side, boundary.step());
   const double depth = std::abs(x - at) * geometry.inv_h;
   removed.reflections += 1;
@@ -56,45 +56,52 @@ void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry,
   removed.deepest = std::max(removed.deepest, depth);
   x = 2 * at - x;
   std::array<double, 3> sign{1, 1, 1}, stress_sign{1, 1, 1};
-  const double m = component(patch, c.stride, c.mass, i);
+  const double m = patch.points.at(c.mass, i);
   for (int a = 0; a < dim; ++a) {
     const auto k = static_cast<unsigned>(a);
     if (a != axis && plane.kind != BoundaryKind::sticky) continue;
     sign[k] = -1;
-    double& v = component(patch, c.stride, c.velocity + kLanes * a, i);
+    double& v = patch.points.at(c.velocity + kLanes * a, i);
     const double image = 2 * plane.velocity[k] - v;
     removed.side_impulse[k] += m * (image - v);
     removed.side_work += 0.5 * m * (image * image - v * v);
     v = image;
   }
-  mirror_matrix(patch, c.stride, c.affine, dim, axis, sign, i);
+  mirror_matrix(patch.points, c.affine, dim, axis, sign, i);
   const int n = dim == 2 ? 2 * axis : axis;
   stress_sign[static_cast<unsigned>(n)] = -1;
-  mirror_shear(patch, c.stride, c.stress, n, i);
-  mirror_shear(patch, c.stride, c.domain, n, i);
-  mirror_matrix(patch, c.stride, c.deformation, 3, n, stress_sign, i);
+  mirror_shear(patch.points, c.stress, n, i);
+  mirror_shear(patch.points, c.domain, n, i);
+  mirror_matrix(patch.points, c.deformation, 3, n, stress_sign, i);
 }
 
 void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, int i,
            Removed& removed) {
-  const double m = component(patch, c.stride, c.mass, i);
+  const double m = patch.points.at(c.mass, i);
   removed.count += 1;
   removed.mass += m;
   removed.kinetic += point_kinetic(patch, i, c, geometry);
-  if (c.energy >= 0) removed.internal += m * component(patch, c.stride, c.energy, i);
+  if (c.energy >= 0) removed.internal += m * patch.points.at(c.energy, i);
+  if (c.carried >= 0) removed.internal += m * patch.points.at(c.carried, i);
   for (int a = 0; a < geometry.dimension; ++a)
-    removed.momentum[static_cast<unsigned>(a)] +=
-        m * component(patch, c.stride, c.velocity + kLanes * a, i);
+    removed.momentum[static_cast<unsigned>(a)] += m * patch.points.at(c.velocity + kLanes * a, i);
 }
 
 /// False when a point left through an open side; puts it back inside closed sides.
 bool keep_inside(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
                  const PointColumns& c, int i, Removed& removed) {
   for (int a = 0; a < geometry.dimension; ++a) {
-    const double x = component(patch, c.stride, c.position + kLanes * a, i);
+    const double x = patch.points.at(c.position + kLanes * a, i);
     const bool low = boundary.beyond(a, 0, x), high = boundary.beyond(a, 1, x);
     if (!low && !high) continue;
     const int side = low ? 0 : 1;
+    if (low && boundary.clearance(a) > 0) {
+      double& near = patch.points.at(c.position + kLanes * a, i);
+      const double least = boundary.position(a, 0) + BoundarySet::kClearance * geometry.h;
+      if (x < boundary.position(a, 0)) reflect(patch, c, geometry, boundary, a, side, i, removed);
+      near = std::max(least, near);
+      continue;
+    }
     if (boundary.is_open(a, side)) return false;
     reflect(patch, c, geometry, boundary, a, side, i, removed);
   }
@@ -104,19 +111,16 @@ bool keep_inside(Patch& patch, const GridGeometry& geometry, const BoundarySet& 
 BlockKey block_of_point(Patch& patch, const GridGeometry& geometry, const PointColumns& c, int i) {
   double position[3];
   for (int a = 0; a < geometry.dimension; ++a)
-    position[a] = component(patch, c.stride, c.position + kLanes * a, i);
+    position[a] = patch.points.at(c.position + kLanes * a, i);
   return block_of(geometry, position);
 }
 
 /// Lanes of a group that failure takes out, among the points of the patch.
 unsigned failed_lanes(const Patch& patch, const PointColumns& c, int g) {
   if (c.removed < 0) return 0;
-  const double* failed = patch.records.data() +
-                         static_cast<std::size_t>(g) * static_cast<std::size_t>(c.stride) +
-                         c.removed;
   unsigned lanes = 0;
-  for (int l = 0; l < kLanes && kLanes * g + l < patch.count; ++l)
-    if (failed[l] > 0.5) lanes |= 1U << l;
+  for (int l = 0; l < kLanes && kLanes * g + l < patch.points.count(); ++l)
+    if (patch.points.at(c.removed, kLanes * g + l) > 0.5) lanes |= 1U << l;
   return lanes;
 }
 
@@ -142,9 +146,8 @@ Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& bounda
   return here ? Fate::stays : Fate::goes;
 }
 
-void post(Patch& patch, int stride, int slot, int i) {
-  for (int k = 0; k < stride; k += kLanes)
-    patch.outbox.records.push_back(component(patch, stride, k, i));
+void post(Patch& patch, int slot, int i) {
+  patch.points.copy_out(i, patch.outbox.records);
   patch.outbox.slots.push_back(static_cast<std::uint8_t>(slot));
   patch.outbox.used |= 1U << slot;
 }
@@ -153,20 +156,19 @@ void post(Patch& patch, int stride, int slot, int i) {
 
 double point_kinetic(const Patch& patch, int i, const PointColumns& c,
                      const GridGeometry& geometry) {
-  const double* record = patch.records.data() +
-                         static_cast<std::size_t>(i / kLanes) * static_cast<std::size_t>(c.stride);
-  const int lane = i % kLanes, dimension = geometry.dimension;
+  const PointStore& points = patch.points;
+  const int dimension = geometry.dimension;
   double twice = 0;
   for (int a = 0; a < dimension; ++a) {
-    const double v = record[c.velocity + kLanes * a + lane];
+    const double v = points.at(c.velocity + kLanes * a, i);
     twice += v * v;
   }
   if (c.affine >= 0)
     for (int k = 0; k < dimension * dimension; ++k) {
-      const double L = record[c.affine + kLanes * k + lane];
+      const double L = points.at(c.affine + kLanes * k, i);
       twice += 0.25 * geometry.h * geometry.h * L * L;
     }
-  return 0.5 * record[c.mass + lane] * twice;
+  return 0.5 * points.at(c.mass, i) * twice;
 }
 
 Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
@@ -174,7 +176,7 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
   Removed removed;
   patch.outbox.clear();
   std::vector<int> holes;
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     const unsigned failed = failed_lanes(patch, columns, g), all = leavers[g] | failed;
     if (all == 0) continue;
     for (int l = 0; l < kLanes; ++l) {
@@ -187,7 +189,7 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
       if (is_failed) removed.failed += 1;
       if (fate == Fate::stays) continue;
       if (fate == Fate::goes)
-        post(patch, columns.stride, slot, i);
+        post(patch, slot, i);
       else
         tally(patch, columns, geometry, i, removed);
       holes.push_back(i);
@@ -195,17 +197,17 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
   }
   // Fill holes from the end: the last point that stays moves into the first hole.
   std::size_t first = 0, last = holes.size();
-  int count = patch.count;
+  int count = patch.points.count();
   while (first < last) {
     if (holes[last - 1] == count - 1) {
       --last;
     } else {
-      copy_point(patch, columns.stride, count - 1, holes[first]);
+      patch.points.copy(count - 1, holes[first]);
       ++first;
     }
     --count;
   }
-  patch.count = count;
+  patch.points.truncate(count);
   if (!holes.empty()) patch.settled = false;
   return removed;
 }
@@ -213,37 +215,36 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
 bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
   const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
   std::set<std::pair<BlockKey, int>> missing;
-  for (const Patch& patch : grid.patches)
+  for (const Patch& patch : grid.patches())
     for (int s = 0; s < slots; ++s)
-      if (((patch.outbox.used >> s) & 1U) != 0 && patch.neighbours[static_cast<unsigned>(s)] < 0)
+      if (((patch.outbox.used >> s) & 1U) != 0 &&
+          patch.links.neighbours[static_cast<unsigned>(s)] < 0)
         missing.insert({shifted(patch.key, s, dimension), patch.body});
   for (const auto& [key, body] : missing) {
-    grid.patches.emplace_back();
-    grid.patches.back().key = key;
-    grid.patches.back().body = body;
+    grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride);
   }
   if (!missing.empty()) grid.rebuild(false);
 
-  for_each(grid.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid.patches[p];
+  for_each(grid.patches().size(), [&](std::size_t p) {
+    Patch& patch = grid.patches()[p];
     const BodyKernelData& body = bodies[static_cast<unsigned>(patch.body)];
-    const int stride = body.columns.stride, width = stride / kLanes;
+    const int width = body.columns.stride / kLanes;
     for (int s = 0; s < slots; ++s) {
-      const int source = patch.neighbours[static_cast<unsigned>(s)];
+      const int source = patch.links.neighbours[static_cast<unsigned>(s)];
       const int towards_us = slots - 1 - s;
       if (source < 0) continue;
-      const Outbox& box = grid.patches[static_cast<unsigned>(source)].outbox;
+      const Outbox& box = grid.patches()[static_cast<unsigned>(source)].outbox;
       if (((box.used >> towards_us) & 1U) == 0) continue;
       for (std::size_t k = 0; k < box.slots.size(); ++k)
         if (box.slots[k] == towards_us)
-          append(patch, box.records.data() + k * static_cast<std::size_t>(width), stride);
+          patch.append(box.records.data() + k * static_cast<std::size_t>(width));
     }
-    if (patch.count > 0) pad(patch, stride, body.columns.mass);
+    if (patch.points.count() > 0) patch.points.pad(body.columns.mass);
   });
   bool emptied = false;
-  for (Patch& patch : grid.patches) {
+  for (Patch& patch : grid.patches()) {
     patch.outbox.clear();
-    emptied = emptied || patch.count == 0;
+    emptied = emptied || patch.points.count() == 0;
   }
   if (emptied) grid.rebuild(true);
   return emptied || !missing.empty();
@@ -253,28 +254,23 @@ Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
                      const PointColumns& c) {
   Removed removed;
   std::map<BlockKey, std::vector<double>> moved;
-  for (Patch& patch : grid.patches) {
+  for (Patch& patch : grid.patches()) {
     if (patch.body != body) continue;
-    for (int i = 0; i < patch.count; ++i) {
+    for (int i = 0; i < patch.points.count(); ++i) {
       if (!keep_inside(patch, grid.geometry(), boundary, c, i, removed)) {
         tally(patch, c, grid.geometry(), i, removed);
         continue;
       }
       std::vector<double>& records = moved[block_of_point(patch, grid.geometry(), c, i)];
-      for (int k = 0; k < c.stride; k += kLanes)
-        records.push_back(component(patch, c.stride, k, i));
+      patch.points.copy_out(i, records);
     }
-    patch.count = 0;
   }
-  std::erase_if(grid.patches, [](const Patch& p) { return p.count == 0; });
+  grid.drop_patches(body);
   const auto width = static_cast<std::size_t>(c.stride / kLanes);
   for (const auto& [key, records] : moved) {
-    Patch& patch = grid.patches.emplace_back();
-    patch.key = key;
-    patch.body = body;
-    for (std::size_t k = 0; k < records.size(); k += width)
-      append(patch, records.data() + k, c.stride);
-    pad(patch, c.stride, c.mass);
+    Patch& patch = grid.add_patch(key, body, c.stride);
+    for (std::size_t k = 0; k < records.size(); k += width) patch.append(records.data() + k);
+    patch.points.pad(c.mass);
   }
   grid.rebuild(true);
   return removed;

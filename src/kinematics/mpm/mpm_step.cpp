@@ -14,11 +14,6 @@ namespace {
 // a cell.
 constexpr double kMaxShare = 0.3;
 
-bool strains(GatherPart part) {
-  return part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
-         part != GatherPart::keep_only;
-}
-
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
     case Transfer::tflip:
@@ -32,24 +27,28 @@ double alpha_of(const MethodOptions& m, double tflip) {
   return 0;
 }
 
+/// Share of the mean residual of a cell that its points keep.
+double cell_alpha_of(const MethodOptions& m) {
+  return m.transfer == Transfer::tflip || m.transfer == Transfer::flip ? 1 : 0;
+}
+
 }  // namespace
 
-MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary,
-                 ContactSet& contact, RigidBodies& rigid, const Kernels& kernels,
-                 const Kernels& plain, const std::vector<BodyKernelData>& bodies)
+MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
     : method_{method},
-      grid_{grid},
-      boundary_{boundary},
-      contact_{contact},
-      rigid_{rigid},
-      kernels_{kernels},
-      plain_{plain},
-      bodies_{bodies},
-      columns_{columns_of(bodies)},
-      velocity_from_kept_{bodies},
-      position_as_velocity_{bodies},
-      energy_watch_{boundary},
-      loaded_{std::any_of(bodies.begin(), bodies.end(), [](const BodyKernelData& b) {
+      grid_{parts.grid},
+      boundary_{parts.boundary},
+      contact_{parts.contact},
+      rigid_{parts.rigid},
+      kernels_{parts.kernels},
+      plain_{parts.plain},
+      bodies_{parts.bodies},
+      columns_{columns_of(parts.bodies)},
+      velocity_from_kept_{parts.bodies},
+      position_as_velocity_{parts.bodies},
+      audit_{parts.audit},
+      energy_watch_{parts.boundary},
+      loaded_{std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
         return b.columns.body_acceleration >= 0;
       })} {
   for (BodyKernelData& body : velocity_from_kept_)
@@ -59,25 +58,84 @@ MpmStep::MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boun
     body.columns.affine = body.columns.map;
   }
   zeros_.reserve(9 * kLanes);
-  node_settings_.cell_volume = std::pow(grid.geometry().h, grid.geometry().dimension);
+  node_settings_.cell_volume = std::pow(grid_.geometry().h, grid_.geometry().dimension);
 }
 
-double MpmStep::advance(double dt) {
+PointSet MpmStep::set(int s) const {
+  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+  return {patch.body, &patch.points};
+}
+
+PointStore& MpmStep::change(int s) {
+  Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+  patch.touch();
+  return patch.points;
+}
+
+double MpmStep::force(double dt) {
   watch_.start();
+  if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
+  if (method_.reference != Reference::current) measure_gaps();
+  particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
+  grid_energy_ = momentum(dt, 1);            // v- = p/m, v+ = v- + dt f/m
+  begin_rigid(dt, grid_energy_);
+  return dt;
+}
+
+void MpmStep::meet(double dt) {
+  if (method_.transfer == Transfer::xpic) note_forces();
+  constraints_ = constrain();
+  account_folds(dt);
+  if (method_.transfer == Transfer::xpic) {
+    filter_velocity(constraints_.walls.impulse);
+  } else {
+    write_node_work();
+  }
+  watch_energy();
+}
+
+void MpmStep::move(double dt) {
   switch (method_.update) {
     case Update::usl:
-      dt = step_usl(dt);
+      grid_to_particles(
+          method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all, dt);
       break;
     case Update::musl:
-      dt = step_musl(dt);
+      grid_to_particles(GatherPart::velocity_only, dt);
+      project_again(dt);
+      grid_to_particles(GatherPart::strain_move, dt);
       break;
     case Update::usf:
-      dt = step_usf(dt);
+      grid_to_particles(GatherPart::velocity_move, dt);
       break;
   }
   last_step_ = dt;
+  book();
   migrate();
-  return dt;
+}
+
+// The new velocities, and L of the same v+, with the old weights. L of this projection would not
+// do: next to the residual that TFLIP keeps it would feed on itself.
+void MpmStep::project_again(double dt) {
+  particles_to_grid(kernels_, bodies_, dt);
+  momentum(dt, 0);
+  constrain(true);
+}
+
+// Stress first: the strain of the motion that the last step made, seen where it ended,
+// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
+// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
+// step.
+void MpmStep::strain_last_motion() {
+  double dt = last_step_;
+  last_step_ = 0;  // once, however often force() is asked
+  particles_to_grid(kernels_, bodies_, dt);
+  GridEnergy grid = momentum(dt, 0);
+  begin_rigid(dt, grid);
+  constrain(true);
+  grid_to_particles(GatherPart::strain_only, dt);
+  audit_.step_external = 0;
+  rigid_.rewind();
 }
 
 MpmStep::Constraints MpmStep::constrain(bool projection) {
@@ -91,103 +149,40 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
 }
 
 // Not where body forces act: their work on the points is known after the gather only.
-void MpmStep::watch_energy(const GridEnergy& grid, const Constraints& c) const {
+void MpmStep::watch_energy() const {
+  const Constraints& c = constraints_;
   if (loaded_) return;
-  energy_watch_.check_nodes(audit_, grid.after + c.work(),
+  energy_watch_.check_nodes(audit_, grid_energy_.after + c.change(),
                             {audit_.step_external + c.contact.driven, c.walls.work});
 }
 
-void MpmStep::book(const Audit::StepEnergies& energies, const Constraints& c) {
-  audit_.book_step(energies, {c.walls.work, c.walls.force_correction},
-                   {c.contact.work, c.contact.force_correction});
-  audit_.contact_work -= c.contact.driven;
+// k of all nodes, when v+ is final, in place of the volumes.
+void MpmStep::write_node_work() {
+  const bool moments = settings(0).moments;
+  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
+    if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks()[n], moments);
+  });
+  lap(Phase::nodes);
+  heat_ = {};
+  if (contact_.active()) heat_.contact = contact_.heat();
+  heat_.walls = boundary_.heat();
+  lap(Phase::boundary);
+}
+
+void MpmStep::book() {
+  const Constraints& c = constraints_;
+  audit_.book_step(heat_);
   audit_.external_work += c.contact.driven;
+  audit_.wall_work += c.walls.work;
   audit_.friction_work += c.contact.friction;
   audit_.contact_pairs = c.contact.nodes;
   for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
   audit_.wall_columns = c.walls.columns_in_contact;
-  // Planes that fold act on the way from the points to the grid.
-  audit_.wall_work += c.walls.fold_work;
-  audit_.transfer_in += c.walls.fold_work;
 }
 
-void MpmStep::account_folds(Constraints& c, double dt) const {
-  const BoundaryWork folds = boundary_.folded(dt, alpha_of(method_, method_.flip_fraction));
-  c.walls.fold_work = folds.fold_work;
-  for (std::size_t a = 0; a < 3; ++a) c.walls.impulse[a] += folds.impulse[a];
-}
-
-double MpmStep::step_usl(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
-  if (method_.reference != Reference::current) measure_gaps();
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  Constraints constraints = constrain();
-  account_folds(constraints, dt);
-  if (method_.transfer == Transfer::xpic) {
-    const std::array<double, 3> impulse = filter_velocity();
-    for (std::size_t a = 0; a < 3; ++a) constraints.walls.impulse[a] += impulse[a];
-  }
-  watch_energy(grid, constraints);
-  grid_to_particles(method_.transfer == Transfer::xpic ? GatherPart::filter_move : GatherPart::all,
-                    dt);
-  book({kinetic, internal, grid.before, grid.after}, constraints);
-  return dt;
-}
-
-double MpmStep::step_musl(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  Constraints constraints = constrain();
-  account_folds(constraints, dt);
-  watch_energy(grid, constraints);
-  grid_to_particles(GatherPart::velocity_only, dt);
-
-  // The new velocities, and L of the same v+, with the old weights. L of this projection would not
-  // do: next to the residual that TFLIP keeps it would feed on itself.
-  particles_to_grid(kernels_, bodies_, dt);
-  const GridEnergy again = momentum(dt, 0);
-  const Constraints repeated = constrain(true);
-  grid_to_particles(GatherPart::strain_move, dt);
-  audit_.transfer_out +=
-      grid.after + constraints.work() - again.before;  // the detour over the points
-  book({kinetic, internal, grid.before, grid.after}, constraints);
-  audit_.transfer_out += again.after - (grid.after + constraints.work()) + repeated.work();
-  audit_.wall_work += repeated.walls.work;
-  audit_.contact_work += repeated.contact.work;
-  return dt;
-}
-
-// Stress first: the strain of the motion that the last step made, seen where it ended,
-// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
-// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
-// step.
-double MpmStep::step_usf(double dt) {
-  const double kinetic = audit_.kinetic, internal = audit_.internal;
-  const bool moved = last_step_ > 0;
-  if (moved) {
-    particles_to_grid(kernels_, bodies_, last_step_);
-    double unused = last_step_;
-    GridEnergy grid = momentum(unused, 0);
-    begin_rigid(last_step_, grid);
-    constrain(true);
-    grid_to_particles(GatherPart::strain_only, last_step_);
-    audit_.step_external = 0;
-    rigid_.rewind();
-  }
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 1);
-  begin_rigid(dt, grid);
-  Constraints constraints = constrain();
-  account_folds(constraints, dt);
-  watch_energy(grid, constraints);
-  grid_to_particles(GatherPart::velocity_move, dt);
-  if (!moved) audit_.internal = internal;
-  book({kinetic, internal, grid.before, grid.after}, constraints);
-  return dt;
+void MpmStep::account_folds(double dt) {
+  const BoundaryWork folds = boundary_.folded(dt, cell_alpha_of(method_));
+  for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += folds.impulse[a];
 }
 
 SweepSettings MpmStep::settings(double dt) const {
@@ -195,6 +190,8 @@ SweepSettings MpmStep::settings(double dt) const {
   s.geometry = &grid_.geometry();
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
+  s.gamma = cell_alpha_of(method_) - std::min(cell_alpha_of(method_), s.alpha);
+  s.moments = cell_alpha_of(method_) < 1;
   s.average_cells = method_.cell_averaging;
   s.pressure_nodes = pressure_nodes_.data();
   for (int a = 0; a < grid_.geometry().dimension; ++a) {
@@ -214,15 +211,15 @@ void MpmStep::relink() {
   boundary_.relink(grid_);
   contact_.relink(grid_);
   boundary_blocks_.clear();
-  for (std::size_t n = 0; n < grid_.node_blocks.size(); ++n)
-    if (grid_.node_blocks[n].at_boundary) boundary_blocks_.push_back(n);
+  for (std::size_t n = 0; n < grid_.node_blocks().size(); ++n)
+    if (grid_.node_blocks()[n].at_boundary) boundary_blocks_.push_back(n);
   relink_fluids();
   provide_memory();
 }
 
 void MpmStep::provide_memory() {
   int groups = 1, local = 1;
-  for (const Patch& p : grid_.patches) groups = std::max(groups, p.groups());
+  for (const Patch& p : grid_.patches()) groups = std::max(groups, p.points.groups());
   for (const BodyKernelData& b : bodies_) local = std::max(local, b.columns.local_stride);
   const auto count = static_cast<std::size_t>(groups + groups / 4 + 1);
   memory_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
@@ -231,21 +228,21 @@ void MpmStep::provide_memory() {
     if (!fluid_patches_.empty())
       m.pressure_halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) *
                               kNodeDoubles);
-    m.cells.reserve(2 * kBlockNodes);
+    m.cells.reserve(kCellDoubles);
     m.local.reserve(static_cast<std::size_t>(groups) * static_cast<std::size_t>(local));
     m.pressures.reserve(static_cast<std::size_t>(groups) * kLanes);
     if (m.leavers.size() < static_cast<std::size_t>(groups)) m.leavers.resize(count);
   }
-  removed_.resize(grid_.patches.size());
+  removed_.resize(grid_.patches().size());
 }
 
 void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                                 double dt) {
   const SweepSettings s = settings(dt);
-  for_each(grid_.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid_.patches[p];
+  for_each(grid_.patches().size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches()[p];
     patch.result.fault = {};
-    if (patch.tile_current || patch.tile_ahead) return;
+    if (patch.tile.state != Tile::State::stale) return;
     kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
   });
   lap(Phase::scatter);
@@ -256,8 +253,8 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
   const bool fluids = !fluid_patches_.empty();
-  for_each(grid_.node_blocks.size(), [&](std::size_t n) {
-    NodeBlock& block = grid_.node_blocks[n];
+  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
+    NodeBlock& block = grid_.node_blocks()[n];
     if (asleep(block)) return;
     kernels_.sum_tiles(grid_, block);
     if (!block.at_boundary && !fluids) kernels_.momentum(block, s);
@@ -265,22 +262,22 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   if (fluids) {
     if (force_share > 0 || method_.update == Update::usf) collect_pressure(settings(dt));
     if (force_share > 0) add_pressure_force(settings(dt));
-    for_each(grid_.node_blocks.size(), [&](std::size_t n) {
-      if (!grid_.node_blocks[n].at_boundary) kernels_.momentum(grid_.node_blocks[n], s);
+    for_each(grid_.node_blocks().size(), [&](std::size_t n) {
+      if (!grid_.node_blocks()[n].at_boundary) kernels_.momentum(grid_.node_blocks()[n], s);
     });
   }
   lap(Phase::nodes);
   boundary_.fold();
   for_each(boundary_blocks_.size(),
-           [&](std::size_t i) { kernels_.momentum(grid_.node_blocks[boundary_blocks_[i]], s); });
+           [&](std::size_t i) { kernels_.momentum(grid_.node_blocks()[boundary_blocks_[i]], s); });
   double max_change = 0;
-  for (const NodeBlock& block : grid_.node_blocks)
+  for (const NodeBlock& block : grid_.node_blocks())
     max_change = std::max(max_change, block.sums.max_change);
   if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
     halve_until_safe(dt, max_change);
   lap(Phase::boundary);
   GridEnergy energy{rigid_.kinetic(), rigid_.kinetic()};
-  for (const NodeBlock& block : grid_.node_blocks) {
+  for (const NodeBlock& block : grid_.node_blocks()) {
     if (rigid_.any() && rigid_.find(block.field)) continue;
     energy.before += block.sums.kinetic_before;
     energy.after += block.sums.kinetic_after;
@@ -293,7 +290,7 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   while (share * max_change * share * dt > kMaxShare * grid_.geometry().h) share *= 0.5;
   dt *= share;
   audit_.retries += 1;
-  for (NodeBlock& block : grid_.node_blocks) {
+  for (NodeBlock& block : grid_.node_blocks()) {
     block.sums.kinetic_after = 0;
     for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
          node += kNodeDoubles) {
@@ -315,23 +312,25 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   const bool ahead = may_scatter_ahead(part);
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
-  if (moves && rigid_.any()) rigid_.finish(grid_, dt);
-  if (!fluid_patches_.empty() && strains(part)) correct_dilatation(s);
-  for_each(grid_.patches.size(), [&](std::size_t p) {
+  if (moves && rigid_.any()) finish_rigid(dt);
+  if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(s);
+  for_each(grid_.patches().size(), [&](std::size_t p) {
     const SweepScratch w = scratch();
-    Patch& patch = grid_.patches[p];
-    patch.tile_ahead = false;
+    Patch& patch = grid_.patches()[p];
+    if (patch.tile.state == Tile::State::ahead) patch.tile.state = Tile::State::stale;
     if (rigid_.any() && rigid_.find(patch.body)) {
       if (moves) move_rigid(p, w);
       return;
     }
     gather(p, part, s, w);
-    if (!moves || patch.tile_current || patch.result.fault.kind != FaultKind::none) return;
-    const int before = patch.count;
+    if (!moves || patch.tile.state == Tile::State::asleep ||
+        patch.result.fault.kind != FaultKind::none)
+      return;
+    const int before = patch.points.count();
     removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_,
                                   bodies_[static_cast<unsigned>(patch.body)].columns, w.leavers);
     const bool steady = patch.steady;
-    patch.steady = patch.count == before;
+    patch.steady = patch.points.count() == before;
     if (ahead && steady && patch.steady) scatter_ahead(patch, s, w);
   });
   lap(Phase::gather);
@@ -344,28 +343,36 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
               scattering / static_cast<double>(memory_.size()));
   throw_faults();
   if (moves && rigid_.any()) rigid_.throw_collisions(grid_);
-  if (part != GatherPart::keep_only)
-    combine_patches(part != GatherPart::strain_move && part != GatherPart::strain_only);
+  if (part != GatherPart::keep_only) combine_patches(part);
 }
 
-void MpmStep::combine_patches(bool forces_worked) {
+void MpmStep::combine_patches(GatherPart part) {
+  const bool forces_worked = part != GatherPart::strain_move && part != GatherPart::strain_only;
   audit_.kinetic = audit_.internal = 0;
   limit_ = {};
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    const PatchResult& r = grid_.patches[p].result;
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
+    const PatchResult& r = grid_.patches()[p].result;
     audit_.kinetic += r.kinetic;
     audit_.internal += r.internal;
-    if (forces_worked) audit_.step_external += r.external_work;
+    if (forces_worked) {
+      audit_.step_external += r.external_work;
+      heat_.given += r.heat_given;
+      heat_.taken += r.heat_taken;
+      if (bodies_[static_cast<std::size_t>(grid_.patches()[p].body)].heat_floor == nullptr)
+        heat_.numerical += r.heat_given + r.heat_taken;
+      heat_.carried += r.carried;
+      heat_.carriers += r.carriers;
+    }
     audit_.book_events(r.ledger);
     if (r.max_rate > limit_.rate)
-      limit_ = {r.max_rate, r.limiter, grid_.patches[p].body, 1.0 * r.limiting_point};
+      limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};
   }
 }
 
 void MpmStep::throw_faults() const {
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p)
-    if (grid_.patches[p].result.fault.kind != FaultKind::none)
-      throw StepFault{static_cast<int>(p), grid_.patches[p].result.fault};
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p)
+    if (grid_.patches()[p].result.fault.kind != FaultKind::none)
+      throw StepFault{static_cast<int>(p), grid_.patches()[p].result.fault};
 }
 
 void MpmStep::migrate() {

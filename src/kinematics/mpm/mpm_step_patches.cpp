@@ -35,43 +35,42 @@ bool MpmStep::may_sleep(GatherPart part) const {
 bool MpmStep::asleep(const NodeBlock& block) const {
   if (!block.inert || block.at_boundary || !fluid_patches_.empty()) return false;
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
-    const int p = grid_.tile_refs[static_cast<std::size_t>(t)].patch;
-    if (!grid_.patches[static_cast<std::size_t>(p)].tile_current) return false;
+    const int p = grid_.tile_refs()[static_cast<std::size_t>(t)].patch;
+    const Tile& tile = grid_.patches()[static_cast<std::size_t>(p)].tile;
+    if (tile.state != Tile::State::asleep) return false;
   }
   return true;
 }
 
 // Points may leave the patch or change places in it. Their ids lie at the head of every record
-// (simulation/body.cpp declares them first).
+// (mpm/columns.cpp declares them first).
 void MpmStep::name_limit(Patch& patch) const {
   if (!(patch.result.max_rate > 0)) return;
-  const int stride = bodies_[static_cast<unsigned>(patch.body)].columns.stride;
-  patch.result.limiting_point =
-      static_cast<int>(component(patch, stride, 0, patch.result.limiting_point));
+  patch.result.limiting_point = static_cast<int>(patch.points.at(0, patch.result.limiting_point));
 }
 
 void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
                      const SweepScratch& w) {
-  Patch& patch = grid_.patches[p];
+  Patch& patch = grid_.patches()[p];
   const BodyKernelData& body = bodies_[static_cast<unsigned>(patch.body)];
   const int corners = corner_count(grid_.geometry().dimension);
   const bool still =
       s.may_sleep &&
-      std::all_of(patch.node_blocks.begin(), patch.node_blocks.begin() + corners,
-                  [this](int n) { return grid_.node_blocks[static_cast<std::size_t>(n)].still; });
+      std::all_of(patch.links.node_blocks.begin(), patch.links.node_blocks.begin() + corners,
+                  [this](int n) { return grid_.node_blocks()[static_cast<std::size_t>(n)].still; });
   patch.result.ledger = {};
-  patch.tile_current = still && patch.settled;
-  if (patch.tile_current) {
+  patch.tile.state = still && patch.settled ? Tile::State::asleep : Tile::State::stale;
+  if (patch.tile.state == Tile::State::asleep) {
     removed_[p] = {};
+    patch.result.heat_given = patch.result.heat_taken = patch.result.carriers = 0;
     return;
   }
-  const std::size_t size =
-      static_cast<std::size_t>(patch.groups()) * static_cast<std::size_t>(body.columns.stride);
-  const std::uint64_t before = still ? hash_of(patch.records.data(), size) : 0;
+  const std::size_t size = patch.points.size();
+  const std::uint64_t before = still ? hash_of(patch.points.data(), size) : 0;
   if (part != GatherPart::velocity_move) patch.result.max_rate = patch.result.stretch = 0;
   kernels_.gather(patch, grid_, body, s, w, part);
   if (part != GatherPart::velocity_move) name_limit(patch);
-  patch.settled = still && hash_of(patch.records.data(), size) == before;
+  patch.settled = still && hash_of(patch.points.data(), size) == before;
 }
 
 // Points are read from memory once a step: the next scatter follows the gather of a patch while its
@@ -88,7 +87,7 @@ void MpmStep::scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScr
   kernels_.scatter(patch, bodies_[static_cast<unsigned>(patch.body)], s, w);
   memory_[static_cast<unsigned>(thread_index())].scatter_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  patch.tile_ahead = patch.result.fault.kind == FaultKind::none;
+  if (patch.result.fault.kind == FaultKind::none) patch.tile.state = Tile::State::ahead;
   patch.result.fault = {};  // a broken point is found again, in the step that it breaks
 }
 

@@ -25,8 +25,7 @@ bool is_folded_ghost(const GridGeometry& g, const BoundaryConditions& conditions
     const auto axis = static_cast<std::size_t>(a);
     const int index = key.i[axis] * edge + rest % edge;
     if (index > 0 && index <= g.cells[axis] + 1) continue;
-    const BoundaryKind kind = conditions[axis][index > 0 ? 1 : 0].kind;
-    if (kind == BoundaryKind::symmetry || kind == BoundaryKind::sticky) return true;
+    if (conditions[axis][index > 0 ? 1 : 0].folds()) return true;
   }
   return false;
 }
@@ -56,36 +55,36 @@ Overlaps find_overlaps(int dimension) {
 void MpmStep::relink_fluids() {
   fluid_patches_.clear();
   fluid_blocks_.clear();
-  std::vector<bool> holds(grid_.node_blocks.size());
+  std::vector<bool> holds(grid_.node_blocks().size());
   const int dimension = grid_.geometry().dimension;
-  for (std::size_t p = 0; p < grid_.patches.size(); ++p) {
-    Patch& patch = grid_.patches[p];
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
+    Patch& patch = grid_.patches()[p];
     if (!is_fluid(bodies_[static_cast<std::size_t>(patch.body)])) continue;
     patch.owns_cells = true;  // patches of one block stand side by side
     for (auto other = fluid_patches_.rbegin();
-         other != fluid_patches_.rend() && grid_.patches[*other].key == patch.key; ++other)
-      if (grid_.patches[*other].field == patch.field) patch.owns_cells = false;
+         other != fluid_patches_.rend() && grid_.patches()[*other].key == patch.key; ++other)
+      if (grid_.patches()[*other].field == patch.field) patch.owns_cells = false;
     patch.pressure_tile.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles +
                                 kBlockNodes);
     fluid_patches_.push_back(p);
     for (int c = 0; c < corner_count(dimension); ++c)
-      holds[static_cast<std::size_t>(patch.node_blocks[static_cast<std::size_t>(c)])] = true;
+      holds[static_cast<std::size_t>(patch.links.node_blocks[static_cast<std::size_t>(c)])] = true;
   }
   for (std::size_t n = 0; n < holds.size(); ++n)
     if (holds[n]) fluid_blocks_.push_back(n);
   if (fluid_patches_.empty()) return;
-  const std::size_t size = grid_.node_blocks.size() * kBlockDoubles;
+  const std::size_t size = grid_.node_blocks().size() * kBlockDoubles;
   pressure_nodes_.reserve(size);
   std::fill(pressure_nodes_.data(), pressure_nodes_.data() + size, 0.0);
 }
 
 double* MpmStep::second_record(double* node) {
-  return pressure_nodes_.data() + (node - grid_.node_blocks.front().nodes);
+  return pressure_nodes_.data() + (node - grid_.nodes());
 }
 
 void MpmStep::sweep_fluids(PressurePart part, const SweepSettings& s) {
   for_each(fluid_patches_.size(), [&](std::size_t i) {
-    Patch& patch = grid_.patches[fluid_patches_[i]];
+    Patch& patch = grid_.patches()[fluid_patches_[i]];
     kernels_.pressure(patch, grid_, bodies_[static_cast<std::size_t>(patch.body)], s, scratch(),
                       part);
   });
@@ -95,13 +94,13 @@ void MpmStep::sweep_fluids(PressurePart part, const SweepSettings& s) {
 void MpmStep::sum_fluid_tiles(int first, int last) {
   const Overlaps overlaps = find_overlaps(grid_.geometry().dimension);
   for_each(fluid_blocks_.size(), [&](std::size_t i) {
-    const NodeBlock& block = grid_.node_blocks[fluid_blocks_[i]];
+    const NodeBlock& block = grid_.node_blocks()[fluid_blocks_[i]];
     double* nodes = second_record(block.nodes);
     for (int n = 0; n < kBlockNodes; ++n)
       std::fill(nodes + kNodeDoubles * n + first, nodes + kNodeDoubles * n + last, 0.0);
     for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
-      const TileRef& ref = grid_.tile_refs[static_cast<std::size_t>(t)];
-      const Patch& patch = grid_.patches[static_cast<std::size_t>(ref.patch)];
+      const TileRef& ref = grid_.tile_refs()[static_cast<std::size_t>(t)];
+      const Patch& patch = grid_.patches()[static_cast<std::size_t>(ref.patch)];
       if (!is_fluid(bodies_[static_cast<std::size_t>(patch.body)])) continue;
       const double* tile = patch.pressure_tile.data();
       const std::array<int, kBlockNodes>& overlap = overlaps[static_cast<std::size_t>(ref.corner)];
@@ -137,7 +136,7 @@ void MpmStep::for_fluid_nodes(const Work& work) {
 
 // Mean pressures and shares at the nodes; these hold [m, p, f, V], nothing folded yet.
 void MpmStep::collect_pressure(const SweepSettings& s) {
-  const std::vector<NodeBlock>& blocks = grid_.node_blocks;
+  const std::span<const NodeBlock> blocks = grid_.node_blocks();
   for_fluid_nodes([&](std::size_t block, int node) {
     std::size_t first = block;
     while (first > 0 && blocks[first - 1].key == blocks[block].key) --first;
@@ -167,7 +166,7 @@ void MpmStep::add_pressure_force(const SweepSettings& s) {
   sweep_fluids(PressurePart::force, s);
   sum_fluid_tiles(kNodeForce, kNodeForce + 3);
   for_fluid_nodes([&](std::size_t block, int node) {
-    double* nodes = grid_.node_blocks[block].nodes;
+    double* nodes = grid_.node_blocks()[block].nodes;
     for (int a = 0; a < 3; ++a)
       nodes[node + kForce + a] += second_record(nodes)[node + kNodeForce + a];
   });
@@ -176,14 +175,14 @@ void MpmStep::add_pressure_force(const SweepSettings& s) {
 // Nodes hold the final v+, ghosts too.
 void MpmStep::correct_dilatation(const SweepSettings& s) {
   sweep_fluids(PressurePart::dilatation, s);
-  sum_fluid_tiles(kNodeDilatation, kNodeDilatation + 1);
-  fold_fluids({kNodeDilatation});
+  sum_fluid_tiles(kNodeDilatation, kNodeWorkRate + 1);
+  fold_fluids({kNodeDilatation, kNodeWorkRate});
   for_fluid_nodes([&](std::size_t block, int node) {
-    double* record = second_record(grid_.node_blocks[block].nodes) + node;
+    double* record = second_record(grid_.node_blocks()[block].nodes) + node;
     const double V = record[kNodeVolume];
-    record[kNodeDilatation] = V > 0 ? record[kNodeDilatation] / V : 0;
+    for (const int k : {kNodeDilatation, kNodeWorkRate}) record[k] = V > 0 ? record[k] / V : 0;
   });
-  mirror_fluids({kNodeDilatation});
+  mirror_fluids({kNodeDilatation, kNodeWorkRate});
 }
 
 }  // namespace krater

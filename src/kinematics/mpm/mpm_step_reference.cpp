@@ -13,17 +13,18 @@ void MpmStep::measure_gaps() {
   const int corners = corner_count(grid_.geometry().dimension);
   const SweepSettings s = settings(0);
   const auto at_wall = [this](int n) {
-    return grid_.node_blocks[static_cast<std::size_t>(n)].at_wall;
+    return grid_.node_blocks()[static_cast<std::size_t>(n)].at_wall;
   };
-  for_each(grid_.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid_.patches[p];
-    if (std::none_of(patch.node_blocks.begin(), patch.node_blocks.begin() + corners, at_wall))
+  for_each(grid_.patches().size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches()[p];
+    if (std::none_of(patch.links.node_blocks.begin(), patch.links.node_blocks.begin() + corners,
+                     at_wall))
       return;
     plain_.scatter(patch, position_as_velocity_[static_cast<unsigned>(patch.body)], s, scratch());
-    patch.tile_current = false;
+    patch.tile.state = Tile::State::stale;
   });
   for (const std::size_t n : boundary_blocks_)
-    if (grid_.node_blocks[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks[n]);
+    if (grid_.node_blocks()[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks()[n]);
   boundary_.note_gaps();
   lap(Phase::boundary);
 }
@@ -33,11 +34,12 @@ bool MpmStep::renew_references() {
   bool renewed = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (largest_strain(grid_, static_cast<int>(b)) <= method_.refresh_strain) continue;
-    double change = 0;
+    double heat = 0;
     const Removed r =
-        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, change);
-    audit_.kinetic += change;
-    audit_.transfer_out -= change;
+        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, heat);
+    audit_.kinetic -= heat;
+    audit_.internal += heat;
+    (heat > 0 ? audit_.transfer_loss : audit_.transfer_gain) += heat;
     audit_.book_removed(r);
     audit_.new_references += 1;
     renewed = true;

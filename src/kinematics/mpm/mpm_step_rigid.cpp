@@ -13,12 +13,20 @@ void MpmStep::begin_rigid(double dt, GridEnergy& energy) {
   audit_.step_external += work;
 }
 
+// A turn keeps the angular momentum, not quite the energy; a rigid body has no heat to keep it in.
+void MpmStep::finish_rigid(double dt) {
+  const double before = rigid_.kinetic();
+  rigid_.finish(grid_, dt);
+  audit_.rigid_loss += before - rigid_.kinetic();
+}
+
 void MpmStep::move_rigid(std::size_t p, const SweepScratch& w) {
-  Patch& patch = grid_.patches[p];
+  Patch& patch = grid_.patches()[p];
   const PointColumns& columns = bodies_[static_cast<unsigned>(patch.body)].columns;
   removed_[p] = {};
-  patch.tile_current = !rigid_.find(patch.body)->moves();
-  if (patch.tile_current) return;
+  const bool moves = rigid_.find(patch.body)->moves();
+  patch.tile.state = moves ? Tile::State::stale : Tile::State::asleep;
+  if (!moves) return;
   rigid_.move(p, patch, grid_.geometry(), boundary_, columns, w.leavers);
   name_limit(patch);
   removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, columns, w.leavers);
@@ -29,8 +37,8 @@ std::vector<int> MpmStep::rigid_losses() const {
   std::vector<int> out;
   for (const RigidBody& body : rigid_.all()) {
     double mass = 0;
-    for (std::size_t p = 0; p < grid_.patches.size(); ++p)
-      if (grid_.patches[p].body == body.options().body) mass += removed_[p].mass;
+    for (std::size_t p = 0; p < grid_.patches().size(); ++p)
+      if (grid_.patches()[p].body == body.options().body) mass += removed_[p].mass;
     if (mass > 0) out.push_back(body.options().body);
   }
   return out;

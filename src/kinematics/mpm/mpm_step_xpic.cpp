@@ -6,19 +6,17 @@
 
 namespace krater {
 
-// Returns the impulse of walls [N s]: they act on each term S+ S dv(l), which enters with a minus
+// Adds the impulse of walls [N s]: they act on each term S+ S dv(l), which enters with a minus
 // sign.
-std::array<double, 3> MpmStep::filter_velocity() {
+void MpmStep::filter_velocity(std::array<double, 3>& impulse) {
   // v(1) = v+, dv(1) = v+; dv(l+1) = dv(l) - S+ S dv(l); v(m) = sum dv(l): Hammerquist & Nairn
   // (2017), FMPM form.
   const std::size_t block_doubles = kBlockNodes * kNodeDoubles;
-  const std::size_t total = grid_.node_blocks.size() * block_doubles;
-  filtered_.reserve(2 * total);
+  const std::size_t total = grid_.node_blocks().size() * block_doubles;
   double* sum = filtered_.data();
   double* increment = sum + total;
-  std::array<double, 3> impulse{};
-  if (total == 0) return impulse;
-  double* nodes = grid_.node_blocks.front().nodes;  // node memory is contiguous over blocks
+  if (total == 0) return;
+  double* nodes = grid_.nodes();  // node memory is contiguous over blocks
   std::copy(nodes, nodes + total, sum);
   for (int order = 1; order < method_.xpic_order; ++order) {
     std::copy(nodes, nodes + total, increment);
@@ -38,7 +36,34 @@ std::array<double, 3> MpmStep::filter_velocity() {
       }
   }
   std::copy(sum, sum + total, nodes);
-  return impulse;
+  write_filtered_work();
+}
+
+// The nodes as the forces left them, before anything else.
+void MpmStep::note_forces() {
+  const std::size_t total = grid_.node_blocks().size() * kBlockNodes * kNodeDoubles;
+  filtered_.reserve(3 * total);
+  std::copy(grid_.nodes(), grid_.nodes() + total, filtered_.data() + 2 * total);
+}
+
+// The filter is one more change of v+, after the forces f and walls at rest: dv = v(m) - v-, and
+// what it takes from motion is in k = vbar . (dt f/m) (mpm/ledger.hpp) by the vbar of v(m).
+void MpmStep::write_filtered_work() {
+  const std::size_t total = grid_.node_blocks().size() * kBlockNodes * kNodeDoubles;
+  double* nodes = grid_.nodes();
+  for (std::size_t i = 0; i < total; i += kNodeDoubles) {
+    const double* forced = filtered_.data() + 2 * total + i;
+    double k = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double minus = forced[a] - forced[4 + a], change = nodes[i + a] - minus;
+      k += (minus + 0.5 * change) * forced[4 + a] + minus * minus;
+      nodes[i + 4 + a] = change;
+    }
+    nodes[i + kNodeWork] = k;
+  }
+  for (NodeBlock& block : grid_.node_blocks()) block.still = false;
+  boundary_.mirror();
+  heat_ = {};
 }
 
 }  // namespace krater

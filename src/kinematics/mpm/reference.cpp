@@ -22,23 +22,23 @@ constexpr double kHeldByGrid = 1.5;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 3, 3>;
 
-Matrix read_matrix(Patch& patch, int stride, int offset, int dimension, int i) {
+Matrix read_matrix(const PointStore& points, int offset, int dimension, int i) {
   Matrix out(dimension, dimension);
   for (int k = 0; k < dimension * dimension; ++k)
-    out(k / dimension, k % dimension) = component(patch, stride, offset + kLanes * k, i);
+    out(k / dimension, k % dimension) = points.at(offset + kLanes * k, i);
   return out;
 }
 
-void write_matrix(Patch& patch, int stride, int offset, const Matrix& m, int i) {
+void write_matrix(PointStore& points, int offset, const Matrix& m, int i) {
   for (int k = 0; k < m.size(); ++k)
-    component(patch, stride, offset + kLanes * k, i) = m(k / m.rows(), k % m.cols());
+    points.at(offset + kLanes * k, i) = m(k / m.rows(), k % m.cols());
 }
 
 /// Tensor of the squared half-widths, M <- F M F^T (mpm/gather.hpp).
-void renew_domain(Patch& patch, const PointColumns& c, const Matrix& F, int i) {
+void renew_domain(PointStore& points, const PointColumns& c, const Matrix& F, int i) {
   const int dimension = static_cast<int>(F.rows()), step = dimension == 2 ? 2 : 1;
   const auto value = [&](int a, int b) -> double& {
-    return component(patch, c.stride, c.domain + kLanes * voigt(step * a, step * b), i);
+    return points.at(c.domain + kLanes * voigt(step * a, step * b), i);
   };
   Matrix M(dimension, dimension);
   for (int a = 0; a < dimension; ++a)
@@ -46,23 +46,22 @@ void renew_domain(Patch& patch, const PointColumns& c, const Matrix& F, int i) {
   M = F * M * F.transpose();
   for (int a = 0; a < dimension; ++a) {
     for (int b = 0; b < dimension; ++b) value(a, b) = M(a, b);
-    component(patch, c.stride, c.half_width + kLanes * a, i) = std::sqrt(M(a, a));
+    points.at(c.half_width + kLanes * a, i) = std::sqrt(M(a, a));
   }
 }
 
 /// One point onto its current configuration.
-void renew_point(Patch& patch, const PointColumns& c, int dimension, int i) {
-  const Matrix F = read_matrix(patch, c.stride, c.map, dimension, i);
+void renew_point(PointStore& points, const PointColumns& c, int dimension, int i) {
+  const Matrix F = read_matrix(points, c.map, dimension, i);
   if (c.affine >= 0) {
-    const Matrix L = read_matrix(patch, c.stride, c.affine, dimension, i);
-    write_matrix(patch, c.stride, c.affine, L * F.inverse(), i);
+    const Matrix L = read_matrix(points, c.affine, dimension, i);
+    write_matrix(points, c.affine, L * F.inverse(), i);
   }
   for (int a = 0; a < dimension; ++a) {
-    component(patch, c.stride, c.grid_position + kLanes * a, i) =
-        component(patch, c.stride, c.position + kLanes * a, i);
+    points.at(c.grid_position + kLanes * a, i) = points.at(c.position + kLanes * a, i);
   }
-  if (c.half_width >= 0) renew_domain(patch, c, F, i);
-  write_matrix(patch, c.stride, c.map, Matrix::Identity(dimension, dimension), i);
+  if (c.half_width >= 0) renew_domain(points, c, F, i);
+  write_matrix(points, c.map, Matrix::Identity(dimension, dimension), i);
 }
 
 struct Wall {
@@ -87,29 +86,27 @@ Triple push(Patch& patch, const PointColumns& c, const Wall& wall, int dimension
             double dt, int i) {
   Triple out{};
   const int n = wall.axis;
-  const double X = component(patch, c.stride, c.grid_position + kLanes * n, i);
+  const double X = patch.points.at(c.grid_position + kLanes * n, i);
   if (wall.inward * (X - wall.position) < wall.held) return out;
   double stretch = 0;
   for (int a = 0; a < dimension; ++a) {
-    const double F = component(patch, c.stride, c.map + kLanes * (dimension * n + a), i);
+    const double F = patch.points.at(c.map + kLanes * (dimension * n + a), i);
     stretch += F * F;
   }
-  const double x = component(patch, c.stride, c.position + kLanes * n, i);
-  const double v = wall.inward * component(patch, c.stride, c.grid_velocity + kLanes * n, i);
+  const double x = patch.points.at(c.position + kLanes * n, i);
+  const double v = wall.inward * patch.points.at(c.grid_velocity + kLanes * n, i);
   const double gap = wall.inward * (x - wall.position) - 0.5 * spacing * std::sqrt(stretch);
   const double change = (gap > 0 ? -gap : -kReturn * gap) / dt - v;
   if (!(change > 0)) return out;
   out[static_cast<unsigned>(n)] = wall.inward * change / dt;
   double slip = 0;
   for (int a = 0; a < dimension; ++a)
-    if (a != n)
-      slip = std::hypot(slip, component(patch, c.stride, c.grid_velocity + kLanes * a, i));
+    if (a != n) slip = std::hypot(slip, patch.points.at(c.grid_velocity + kLanes * a, i));
   if (slip <= 0) return out;
   const double loss = std::min(wall.friction * change, slip) / slip;
   for (int a = 0; a < dimension; ++a)
     if (a != n)
-      out[static_cast<unsigned>(a)] =
-          -loss * component(patch, c.stride, c.grid_velocity + kLanes * a, i) / dt;
+      out[static_cast<unsigned>(a)] = -loss * patch.points.at(c.grid_velocity + kLanes * a, i) / dt;
   return out;
 }
 
@@ -117,20 +114,22 @@ Triple push(Patch& patch, const PointColumns& c, const Wall& wall, int dimension
 
 double largest_strain(const BlockGrid& grid, int body) {
   double largest = 0;
-  for (const Patch& p : grid.patches)
+  for (const Patch& p : grid.patches())
     if (p.body == body) largest = std::max(largest, 0.5 * p.result.stretch);
   return largest;
 }
 
 Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
-                        const PointColumns& columns, double& kinetic_change) {
-  kinetic_change = 0;
-  for (Patch& patch : grid.patches) {
+                        const PointColumns& columns, double& heat) {
+  heat = 0;
+  for (Patch& patch : grid.patches()) {
     if (patch.body != body) continue;
-    for (int i = 0; i < patch.count; ++i) {
-      kinetic_change -= point_kinetic(patch, i, columns, grid.geometry());
-      renew_point(patch, columns, grid.geometry().dimension, i);
-      kinetic_change += point_kinetic(patch, i, columns, grid.geometry());
+    for (int i = 0; i < patch.points.count(); ++i) {
+      const double before = point_kinetic(patch, i, columns, grid.geometry());
+      renew_point(patch.points, columns, grid.geometry().dimension, i);
+      const double lost = before - point_kinetic(patch, i, columns, grid.geometry());
+      patch.points.at(columns.energy, i) += lost / patch.points.at(columns.mass, i);
+      heat += lost;
     }
   }
   return redistribute(grid, body, boundary, columns);
@@ -140,20 +139,20 @@ std::array<double, 3> push_from_walls(BlockGrid& grid, const std::vector<BodyKer
                                       const BoundarySet& boundary, double spacing, double dt) {
   const GridGeometry& geometry = grid.geometry();
   const std::vector<Wall> walls = walls_of(geometry, boundary);
-  std::vector<std::array<double, 3>> force(grid.patches.size());
-  for_each(grid.patches.size(), [&](std::size_t p) {
-    Patch& patch = grid.patches[p];
+  std::vector<std::array<double, 3>> force(grid.patches().size());
+  for_each(grid.patches().size(), [&](std::size_t p) {
+    Patch& patch = grid.patches()[p];
     const PointColumns& c = bodies[static_cast<unsigned>(patch.body)].columns;
-    for (int i = 0; i < patch.count; ++i)
+    for (int i = 0; i < patch.points.count(); ++i)
       for (const Wall& wall : walls) {
         const Triple b = push(patch, c, wall, geometry.dimension, spacing, dt, i);
         for (int a = 0; a < geometry.dimension; ++a) {
           const auto k = static_cast<unsigned>(a);
-          component(patch, c.stride, c.body_acceleration + kLanes * a, i) += b[k];
-          force[p][k] += component(patch, c.stride, c.mass, i) * b[k];
+          patch.points.at(c.body_acceleration + kLanes * a, i) += b[k];
+          force[p][k] += patch.points.at(c.mass, i) * b[k];
         }
       }
-    pad(patch, c.stride, c.mass);
+    patch.points.pad(c.mass);
   });
   std::array<double, 3> total{};
   for (const auto& f : force)

@@ -122,7 +122,8 @@ struct LawReader {
   void read_damage() {
     const Node* node = material.find_block("damage");
     const Node* failure = material.find_block("failure");
-    if (failure && !node && !spalls())
+    const bool model_fails = options.model && law_info(*options.model).fails;
+    if (failure && !node && !spalls() && !model_fails)
       material.fail(*failure, "needs damage or a spall that fails: nothing else makes points fail");
     if (failure || node) read_failure(failure);
     if (!node) return;
@@ -209,17 +210,24 @@ void check_damage(const MaterialOptions& material, Block& block) {
     block.fail("spall needs an eos: it acts on the pressure");
   if (!material.damage) return;
   const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
-  if (!strength || !strength->yields) {
+  const LawInfo& damage = law_info(*material.damage);
+  if (!damage.needs_flow && (!strength || strength->whole_stress))
+    block.fail("damage " + damage.name + " needs a strength whose stress follows from a rate");
+  if (!damage.needs_flow && material.coupling == Coupling::rate)
+    block.fail("damage " + damage.name +
+               " does not grow with plastic strain: coupling rate has nothing to couple");
+  if (damage.needs_flow && (!strength || !strength->yields)) {
     std::string known;
     for (const LawInfo& law : catalogue()) {
       if (law.yields) known += (known.empty() ? "" : ", ") + law.name;
     }
-    block.fail(
-        "damage grows with plastic strain: it needs a strength that yields (known: " + known + ")");
+    block.fail("damage " + damage.name +
+               " grows with plastic strain: it needs a strength that yields (known: " + known +
+               ")");
   }
   const MaterialConstants constants{material.density, material.shear_modulus,
                                     material.initial_temperature};
-  if (material.coupling == Coupling::rate &&
+  if (damage.needs_flow && material.coupling == Coupling::rate &&
       !law_degrades(material.damage->law, material.damage->values.data(), constants)) {
     block.fail("damage " + material.damage->name +
                " does not degrade the stress: coupling rate has nothing to couple");
@@ -249,13 +257,34 @@ void check_heating(const MaterialOptions& material, Block& block) {
 
 /// A block of density alone is what a rigid body needs.
 bool holds_no_law(const MaterialOptions& m) {
-  return !m.eos && !m.strength && !m.damage && !m.viscosity && !m.heating && !m.spall_strength &&
-         m.rate == Rate::truesdell;
+  return !m.eos && !m.strength && !m.damage && !m.model && !m.viscosity && !m.heating &&
+         !m.spall_strength && m.rate == Rate::truesdell;
+}
+
+/// A model stands for strength, pressure and damage: nothing of those may stand beside it.
+void check_model(const MaterialOptions& material, Block& block) {
+  const LawInfo& model = law_info(*material.model);
+  std::string beside;
+  for (const auto& [key, given] : {std::pair{"strength", material.strength.has_value()},
+                                   {"eos", material.eos.has_value()},
+                                   {"damage", material.damage.has_value()},
+                                   {"spall", material.spall_strength.has_value()}}) {
+    if (given) beside += (beside.empty() ? "" : ", ") + std::string{key};
+  }
+  if (!beside.empty())
+    block.fail("model " + model.name + " gives strength, pressure and damage: remove " + beside);
+  if (model.needs_shear_modulus && !(material.shear_modulus > 0))
+    block.fail("model " + model.name + " needs shear_modulus, or youngs_modulus and poisson_ratio");
 }
 
 void check_combination(MaterialOptions& material, Block& block, Reading& reading) {
   material.bare = holds_no_law(material);
   if (material.bare) return;
+  if (material.model) {
+    check_model(material, block);
+    check_heating(material, block);
+    return;
+  }
   const LawInfo* strength = material.strength ? &law_info(*material.strength) : nullptr;
   if (strength && strength->whole_stress && material.eos) {
     block.fail("strength " + strength->name + " gives the pressure too: remove eos");
@@ -266,7 +295,7 @@ void check_combination(MaterialOptions& material, Block& block, Reading& reading
       if (law.whole_stress) whole += (whole.empty() ? "" : ", ") + law.name;
     }
     block.fail("missing key 'eos' (known: " + join(law_names("eos")) + "; only with strength " +
-               whole + " there is none)");
+               whole + ", or with a model, there is none)");
   }
   if (strength && strength->needs_shear_modulus && !(material.shear_modulus > 0)) {
     block.fail("strength " + strength->name +
@@ -304,6 +333,7 @@ Node read_material(const Node& node, Reading& reading) {
   LawReader laws{reading, constants, block, material};
   material.eos = laws.read_named("eos");
   material.strength = laws.read_named("strength");
+  material.model = laws.read_named("model");
   laws.read_rate();
   laws.read_spall();
   laws.read_damage();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "krater/materials/catalogue.hpp"
 #include "krater/points/fields.hpp"
 #include "scene/readers/readers.hpp"
 
@@ -165,6 +166,11 @@ const std::vector<FieldName>& known_fields() {
                                     &field::GridVelocity::info};
     std::vector<FieldName> names;
     for (const FieldInfo* info : all) names.push_back({info->name, info->unit});
+    for (const LawInfo& law : catalogue())  // what laws remember
+      for (const FieldInfo* column : law.columns)
+        if (std::none_of(names.begin(), names.end(),
+                         [&](const FieldName& n) { return std::string{n.name} == column->name; }))
+          names.push_back({column->name, column->unit});
     names.push_back({kFragmentField, "1"});
     return names;
   }();

@@ -25,9 +25,11 @@ std::optional<Components> read_components(const Node& node, const char* unit, bo
   Problems& problems = reading.problems;
   const bool wrong_size = node.items.size() != 2 && node.items.size() != 3;
   if (node.kind != Node::Kind::list || wrong_size) {
-    const std::string found = node.kind == Node::Kind::list
-                                  ? std::to_string(node.items.size()) + " components"
-                                  : node.kind_name();
+    std::string found = node.kind == Node::Kind::list
+                            ? std::to_string(node.items.size()) + " components"
+                            : node.kind_name();
+    if (node.items.size() == 1 && node.items[0].text.find(';') != std::string::npos)
+      found += ": commas part them, not semicolons";
     problems.add(node.file, node.line, node.path,
                  "expected a vector, [radial or x, axial z] or [x, y, z], found " + found);
     return std::nullopt;

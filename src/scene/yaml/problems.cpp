@@ -82,6 +82,12 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
   const std::string near = nearest(name, known);
+  if (const std::size_t at = name.find("diameter"); near.empty() && at != std::string_view::npos) {
+    const std::string radius = std::string{name.substr(0, at)} + "radius" +
+                               std::string{name.substr(at + std::string_view{"diameter"}.size())};
+    if (std::find(known.begin(), known.end(), radius) != known.end())
+      return " (give the " + radius + ", half of it; known: " + join(known) + ")";
+  }
   return " (" + (near.empty() ? std::string{} : "did you mean " + near + "? ") +
          "known: " + (known.empty() ? std::string{"none"} : join(known)) + ")";
 }

@@ -89,8 +89,37 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+struct Spelled {
+  const char* word;
+  const char* symbol;
+};
+constexpr std::array kSpelledUnits{
+    Spelled{"second", "s"}, Spelled{"metre", "m"},   Spelled{"meter", "m"},
+    Spelled{"gram", "g"},   Spelled{"pascal", "Pa"}, Spelled{"newton", "N"},
+    Spelled{"joule", "J"},  Spelled{"watt", "W"},    Spelled{"hertz", "Hz"},
+};
+constexpr std::array kSpelledPrefixes{
+    Spelled{"", ""},       Spelled{"kilo", "k"},  Spelled{"mega", "M"}, Spelled{"giga", "G"},
+    Spelled{"milli", "m"}, Spelled{"micro", "u"}, Spelled{"nano", "n"}, Spelled{"centi", "c"},
+};
+
+/// The symbol of a unit that is written out: us of microseconds; empty if it is none.
+std::string symbol_of(std::string word) {
+  if (word.size() > 1 && word.back() == 's') word.pop_back();
+  for (const Spelled& prefix : kSpelledPrefixes)
+    for (const Spelled& unit : kSpelledUnits)
+      if (word == std::string{prefix.word} + unit.word)
+        return std::string{prefix.symbol} + unit.symbol;
+  return "";
+}
+
 std::string explain_unknown(std::string_view word) {
   const std::string start = "unknown unit " + quote(word);
+  if (const std::string symbol = symbol_of(lower(word)); !symbol.empty())
+    return start + " (write " + symbol + ")";
+  for (const char* raised : {"\xc2\xb2", "\xc2\xb3"})
+    if (word.find(raised) != std::string_view::npos)
+      return start + " (exponents are written m^2, m^3)";
   for (const Trap& trap : kTraps) {
     if (word == trap.word) return start + " (" + trap.hint + ")";
   }

@@ -123,12 +123,17 @@ std::string expectation(const char* unit) {
   return name == "1" ? "expected a pure number" : "expected a value in " + name;
 }
 
+/// The signs minus and en dash of texts; a scene's minus is a hyphen.
+bool has_typographic_minus(std::string_view text) {
+  return text.find("\xe2\x88\x92") != std::string_view::npos ||
+         text.find("\xe2\x80\x93") != std::string_view::npos;
+}
+constexpr const char* kTypographicMinus = " contains a typographic minus sign; write a hyphen";
+
 std::string explain_no_number(std::string_view text, const char* unit) {
   using scene::quote;
   if (text.empty()) return "is empty; " + expectation(unit);
-  if (text.find("\xe2\x88\x92") != std::string_view::npos) {
-    return quote(text) + " contains a typographic minus sign; write a hyphen";
-  }
+  if (has_typographic_minus(text)) return quote(text) + kTypographicMinus;
   std::string word;
   for (char c : text) {
     if (c != '.' && c != '+' && c != '-')
@@ -144,6 +149,13 @@ std::string explain_tail(std::string_view text, std::string_view tail) {
   using scene::quote;
   if (tail.front() == '_' || tail.front() == ',' || tail.front() == '\'') {
     return quote(text) + " is not a number: write digits without separators and a decimal point";
+  }
+  if (has_typographic_minus(tail)) return quote(text) + kTypographicMinus;
+  if (tail.find(';') != std::string_view::npos)
+    return quote(text) + ": a list is written [a, b], with commas";
+  const bool times = tail.front() == '*' || tail.front() == 'x' || tail.substr(0, 2) == "\xc3\x97";
+  if (times && tail.find("10") != std::string_view::npos && text[0] != '0') {
+    return quote(text) + ": powers of ten are written with e, 2e-6, and the unit behind";
   }
   if (tail.front() == '.') return quote(text) + " is not a number: two decimal points";
   if (tail.front() == '/') return quote(text) + ": write 1/s or s^-1, not a leading slash";
@@ -187,6 +199,7 @@ QuantityText parse_quantity(std::string_view text, const char* unit) {
 
 bool looks_like_quantity(std::string_view text) {
   text = trim(text);
+  if (has_typographic_minus(text)) return true;
   const Decimal number = read_decimal(text);
   if (number.length == 0) return false;
   const std::string_view tail = trim(text.substr(number.length));

@@ -96,10 +96,10 @@ def mirrored():
         check(off < 1e-9, f"four quarters are the whole: {name}", off)
 
 
-VAPOUR = "issue 24 (total energy; the vapour's strength and the transfer take it)"
+VAPOUR = "issue 24 (total energy: the transfer creates 5 % while the spheres are crushed)"
 
 
-@fault("b13", "vapour pushes, and its energy stays", until=VAPOUR, long=True)
+@fault("b13", "vapour pushes, and its energy stays", until=VAPOUR)
 def vapour():
     rows = expand()
     energy = rows["kinetic_energy"] + rows["internal_energy"] + rows["removed_energy"]
@@ -107,9 +107,11 @@ def vapour():
     check(worst < 0.02, "b13: energy", worst)
 
 
-@fault("b13 gas", "two spheres at 30 km/s run to their end, and no thin gas pulls", long=True)
+@fault("b13 gas", "two spheres at 30 km/s run to their end; no thin gas pulls or loses energy in shear")
 def thin_gas():
-    expand()
+    rows = expand()
+    energy = rows["kinetic_energy"] + rows["internal_energy"] + rows["removed_energy"]
+    check(energy.min() > 0.98 * energy[0], "b13: least energy", energy.min() / energy[0])  # 0.79 with the solid's strength
     with h5py.File("out/frames.h5") as file:
         for number in sorted(file["frames"]):
             for body in ("a", "b"):

@@ -306,7 +306,8 @@ def pipe():
     process.terminate()
     process.communicate()
     check(" left " in line and " step " in line and "\r" not in line, "a line of progress", line)
-    check(line.split()[0] in pathlib.Path("slow/log.txt").read_text(encoding="utf-8"), "and in the log")
+    log = pathlib.Path("slow/log.txt").read_text(encoding="utf-8")
+    check(line.strip().removeprefix("krater: ") in log, "and in the log", log)
 
 
 @fault("frames", "frames are compressed, and a frame costs the same whatever their number")

@@ -7,10 +7,27 @@
 #include <string>
 
 #include "krater/core/errors.hpp"
+#include "krater/materials/law_state.hpp"
+
+namespace {
+
+using namespace krater;
+
+/// Laws with history, one of them wrong.
+struct Twice {
+  static constexpr const char* name = "twice";
+  using State = Columns<field::Distension, field::Distension>;
+  std::array<double, 2> initial_state() const { return {1.0, 1.0}; }
+};
+struct Once {
+  static constexpr const char* name = "once";
+  using State = Columns<field::Distension>;
+  std::array<double, 1> initial_state() const { return {1.0}; }
+};
+
+}  // namespace
 
 TEST_SUITE("unit") {
-  using namespace krater;
-
   TEST_CASE("layout: a column exists once, in lane groups of eight, sized by the dimension") {
     for (const int dimension : {2, 3}) {
       Layout layout{dimension};
@@ -49,6 +66,22 @@ TEST_SUITE("unit") {
     layout.local_output<field::StepGradient>("method");
     CHECK_NOTHROW(layout.check());
     CHECK(layout.find("sound_speed")->initial == 5000.0);
+  }
+
+  TEST_CASE("law state: a column has one owner, whoever declares it twice is named") {
+    const auto said = [](auto make) {
+      try {
+        make();
+      } catch (const std::logic_error& error) {
+        return std::string{error.what()};
+      }
+      return std::string{};
+    };
+    Layout one{3}, two{3};
+    const std::string own = said([&] { StateOf<Twice>{Twice{}, one}; });
+    CHECK(own.find("twice: the column 'distension'") == 0);
+    CHECK(said([&] { StateOf<Once>{Once{}, two}; }).empty());
+    CHECK(said([&] { StateOf<Once>{Once{}, two}; }).find("once: the column 'distension'") == 0);
   }
 
   TEST_CASE("layout: optional fields are absent until declared; initial values do not contradict") {

@@ -49,6 +49,9 @@ const std::vector<Mistake> kMistakes = {
     {"damage: {maximum_plastic_strain: {eps_max: 0.3}}\n    failure: {action: erode}",
      "materials.steel.failure.action",
      {"unknown value 'erode'", "strength_loss", "remove"}},
+    {"damage: {tuler_butcher: {stress: 50 MPa, time: 1 us}, coupling: rate}",
+     "materials.steel",
+     {"tuler_butcher does not grow with plastic strain"}},
     {"failure: {action: strength_loss}", "materials.steel.failure", {"needs damage"}},
     {"spall_strength: -1 GPa", "materials.steel.spall_strength", {"must be positive"}},
     {"spall_strength: 1 mm", "materials.steel.spall_strength", {"wrong dimension"}},
@@ -85,10 +88,49 @@ TEST_SUITE("unit") {
     elastic = replaced(elastic, "von_mises: {Y: 400 MPa, H: 100 MPa}", "elastic");
     CHECK(message_of(folder.write("elastic.yaml", elastic)).find("needs a strength that yields") !=
           std::string::npos);
+    const std::string brittle = replaced(elastic, "maximum_plastic_strain: {eps_max: 0.3}",
+                                         "tuler_butcher: {stress: 50 MPa, time: 1 us}");
+    CHECK(read_scene(folder.write("brittle.yaml", brittle)).materials.at(0).damage);
+    const std::string alone = replaced(brittle, "    strength:\n      elastic\n", "");
+    CHECK(message_of(folder.write("alone.yaml", alone)).find("tuler_butcher needs a strength") !=
+          std::string::npos);
     std::string fluid =
         replaced(small_scene(), "    strength:\n      von_mises: {Y: 400 MPa, H: 100 MPa}\n",
                  "    rate: jaumann\n");
     CHECK(message_of(folder.write("fluid.yaml", fluid)).find("rate needs a strength") !=
+          std::string::npos);
+  }
+
+  TEST_CASE("a model stands alone: what it gives is refused beside it, by name") {
+    const ScratchFolder folder;
+    const std::string concrete =
+        "model: {holmquist_johnson_cook: {compressive_strength: 48 MPa, A: 0.79, B: 1.6, N: 0.61, "
+        "S_max: 7, D1: 0.04, tensile_strength: 4 MPa, crush_pressure: 16 MPa, crush_compression: "
+        "0.001, lock_pressure: 0.8 GPa, lock_compression: 0.1, K1: 85 GPa}}";
+    const std::string beside = with(concrete + "\n    spall_strength: 1 GPa");
+    const std::string message = message_of(folder.write("beside.yaml", beside));
+    CAPTURE(message);
+    CHECK(message.find("materials.steel: model holmquist_johnson_cook gives strength, pressure and "
+                       "damage: remove strength, eos, spall") != std::string::npos);
+    const std::string more = "\n    failure: {action: remove}\n    rate: jaumann";
+    std::string own = replaced(with(concrete + more),
+                               "    strength:\n      von_mises: {Y: 400 MPa, H: 100 MPa}\n", "");
+    own = replaced(own, "    eos: {linear: {bulk_modulus: 160 GPa}}\n", "");
+    const Scene scene = read_scene(folder.write("model.yaml", own));
+    const MaterialOptions& m = scene.materials.at(0);
+    REQUIRE(m.model);
+    CHECK(value_of(*m.model, "lock_strain") == 0);
+    CHECK(m.failure == FailureAction::remove);
+    const Scene again = read_scene(folder.write("resolved.yaml", scene.resolved));
+    CHECK(again.materials.at(0).model->values == m.model->values);
+    const std::string soft = replaced(own, "crush_compression: 0.001", "crush_compression: 0.5");
+    CHECK(message_of(folder.write("soft.yaml", soft)).find("lock_compression must lie above") !=
+          std::string::npos);
+    const std::string hot = replaced(own, "    rate: jaumann", "    heating: {energy: {c_v: 800}}");
+    CHECK(message_of(folder.write("hot.yaml", hot)).find("takes the temperature from an eos") !=
+          std::string::npos);
+    const std::string wrong = replaced(own, "holmquist_johnson_cook", "hjc");
+    CHECK(message_of(folder.write("wrong.yaml", wrong)).find("unknown model 'hjc'") !=
           std::string::npos);
   }
 

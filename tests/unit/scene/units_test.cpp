@@ -92,7 +92,18 @@ TEST_SUITE("unit") {
         {"3 e", "1", "unknown unit 'e'"},
         {"3 u", "kg", "unknown unit"},
         {"3 mm @ 5", "m", "unknown unit"},
-        {"3 second", "s", "unknown unit"},
+        {"3 second", "s", "write s"},
+        {"80 microseconds", "s", "write us"},
+        {"0.5 Millimeters", "m", "write mm"},
+        {"90 megapascals", "Pa", "write MPa"},
+        {"3 mm\xc2\xb3", "m^3", "written m^2, m^3"},
+        {"2*10^-6", "s", "written with e"},
+        {"2 x 10-6 s", "s", "written with e"},
+        {"2\xc3\x97"
+         "10-6 s",
+         "s", "written with e"},
+        {"10 mm; 30 mm", "m", "with commas"},
+        {"3 \xe2\x80\x93 5", "1", "typographic minus"},
         {"3 sec", "s", "write s"},
         {"3 /s", "1/s", "write 1/s"},
         {"3 m/s", "m", "wrong dimension: expected a value in m"},
@@ -133,7 +144,9 @@ TEST_SUITE("unit") {
   }
 
   TEST_CASE("units: numbers and expressions are told apart") {
-    for (const char* text : {"1", "-190 m/s", "1 1/s", "3 q", "1e3", ".5 mm"})
+    for (const char* text : {"\xe2\x88\x92"
+                             "190 m/s",
+                             "1", "-190 m/s", "1 1/s", "3 q", "1e3", ".5 mm"})
       CHECK(krater::looks_like_quantity(text));
     for (const char* text : {"2*x", "2 * x", "-3 - x", "x", "sin(x)", "2^x", "", "-x", "1 < x"}) {
       CHECK_FALSE(krater::looks_like_quantity(text));

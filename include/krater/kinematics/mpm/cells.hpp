@@ -7,17 +7,20 @@
 /// the stress update sees tr L + beta (tr_c - tr L), the force sees (1 - beta)(p + q) + beta P_c.
 /// One beta for both keeps the internal force and the dilatation adjoint, so the averages do no
 /// work. beta fades from 1 to 0 where the last update saw |tr D| h / c between 0.001 and 0.005: in
-/// shocks the averages would smear.
+/// shocks the averages would smear. It is 0 in a cell that holds a failed point, which would pull
+/// with the tension of its sound neighbours.
 #include "krater/kinematics/mpm/weights.hpp"
 
 namespace krater::inline KRATER_ISA {
 
 inline constexpr double kShockOn = 0.005, kShockOff = 0.001;
 
-/// Sums of the 64 cells of a block; `value` holds V times the averaged quantity, then the average.
+/// Sums of the 64 cells of a block; `value` holds V times the averaged quantity, then the average;
+/// `mean_rate` likewise a second one.
 struct CellSums {
   double* volume;
   double* value;
+  double* mean_rate = nullptr;
   KRATER_FORCE_INLINE void clear() const {
     for (int c = 0; c < kBlockNodes; c += kLanes) {
       store(volume + c, Pack(0.0));
@@ -39,6 +42,18 @@ struct CellSums {
       const Pack V = load(volume + c);
       store(value + c, select(V > Pack(0.0), load(value + c) / V, Pack(0.0)));
     }
+  }
+  /// The same with `mean_rate` for `value`; add_value() leaves the volumes as they are.
+  KRATER_FORCE_INLINE CellSums second() const { return {volume, mean_rate}; }
+  KRATER_FORCE_INLINE void add_volume(const double* cells, Pack V) const {
+    alignas(64) double v[8];
+    store(v, V);
+    for (int l = 0; l < kLanes; ++l) volume[static_cast<int>(cells[l])] += v[l];
+  }
+  KRATER_FORCE_INLINE void add_value(const double* cells, Pack V, Pack quantity) const {
+    alignas(64) double vq[8];
+    store(vq, V * quantity);
+    for (int l = 0; l < kLanes; ++l) value[static_cast<int>(cells[l])] += vq[l];
   }
 };
 

@@ -3,12 +3,15 @@
 /// \file kinematics/mpm/gather.hpp
 /// grid_to_particles of one patch, then the constitutive stages on the points while they are in the
 /// cache:
-///   s+ = sum S v+,  s- = s+ - sum S dv,  v_p <- s+ + alpha (v_p - s-),  x_p <- x_p + dt s+,
+///   s+ = sum S v+,  s- = s+ - sum S dv,  x_p <- x_p + dt s+,
+///   v_p <- s+ + <r> + alpha (r - <r>),  r = v_p - s-,
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
-/// alpha = 1: FLIP; 0: APIC; between: TFLIP. One alpha for all points: sum m (v_p - s-) vanishes
-/// only over all of them, so an alpha that varied in space would lose momentum. An isolated point
-/// (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid: alone it would expand for ever. A failed
-/// one, which no tension holds, needs more company: two on their own would still expand (0.4).
+/// alpha = 1: FLIP; between 0 and 1: TFLIP, with the mean <r> of the points of the body in the cell
+/// (kinematics/mpm/ledger.hpp), so that no momentum leaves it; APIC and XPIC have alpha = 0 and no
+/// <r>. An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not
+/// strain: alone its own pressure would expand it for ever. A failed one, which no tension holds,
+/// needs more company to carry L: two on their own would still expand (0.4).
+#include "krater/kinematics/mpm/ledger.hpp"
 #include "krater/kinematics/mpm/scatter.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -16,8 +19,9 @@ namespace krater::inline KRATER_ISA {
 /// The columns the gather touches, as views.
 struct GatherViews {
   WriteView position, velocity, affine, kept, map, half_width, domain;
-  ReadView grid_position, mass, density, body_acceleration, energy, sound_speed, failed;
-  WriteView indicator;
+  ReadView grid_position, mass, density, body_acceleration, sound_speed, failed;
+  ReadView old_affine, stress, pressure, viscous;
+  WriteView energy, indicator;
   WriteView step_gradient, extra_dilatation;
   ReadView signal;
 };
@@ -25,7 +29,7 @@ struct GatherViews {
 KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
                                            const SweepScratch& w) {
   const auto read = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
-  const auto write = [&](int offset) { return WriteView{patch.records.data() + offset, c.stride}; };
+  const auto write = [&](int offset) { return WriteView{patch.points.data() + offset, c.stride}; };
   return {write(c.position),
           write(c.velocity),
           write(c.affine),
@@ -37,9 +41,13 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
           read(c.mass),
           read(c.density),
           read(c.body_acceleration),
-          read(c.energy),
           read(c.sound_speed),
           read(c.failed),
+          read(c.affine),
+          read(c.stress),
+          read(c.pressure),
+          read(c.viscous),
+          write(c.energy),
           write(c.indicator),
           WriteView{w.local + c.local_gradient, c.local_stride},
           WriteView{w.local + c.local_dilatation, c.local_stride},
@@ -57,13 +65,31 @@ void load_halo(const double* nodes, const Patch& patch, double* halo) {
     for (int j = 0; j < T; ++j)
       for (int high = 0; high < 2; ++high) {
         const int corner = Dim == 3 ? (i / E) + 2 * (j / E) + 4 * high : (j / E) + 2 * high;
-        const double* block =
-            nodes + static_cast<std::size_t>(patch.node_blocks[static_cast<unsigned>(corner)]) *
-                        kBlockNodes * kNodeDoubles;
+        const double* block = nodes + static_cast<std::size_t>(
+                                          patch.links.node_blocks[static_cast<unsigned>(corner)]) *
+                                          kBlockNodes * kNodeDoubles;
         const double* from = block + kNodeDoubles * (((i % E) * E + j % E) * E);
         double* to = halo + kNodeDoubles * ((i * T + j) * T + E * high);
         for (int k = 0; k < (high != 0 ? T - E : E); ++k) store(to + 8 * k, load(from + 8 * k));
       }
+}
+
+/// The nodes that the gather reads; k is zero where a block at rest has kept its volumes.
+template <int Dim>
+void load_nodes(const BlockGrid& grid, const Patch& patch, double* halo) {
+  load_halo<Dim>(grid.nodes(), patch, halo);
+  constexpr int E = block_edge(Dim), T = tile_edge(Dim);
+  unsigned kept = 0;
+  for (int corner = 0; corner < corner_count(Dim); ++corner)
+    if (keeps_volumes(grid.node_blocks()[static_cast<unsigned>(
+            patch.links.node_blocks[static_cast<unsigned>(corner)])]))
+      kept |= 1U << corner;
+  if (kept == 0) return;
+  for (int n = 0; n < tile_nodes(Dim); ++n) {
+    const int i = n / (T * T), j = n / T % T, k = n % T;
+    const int corner = Dim == 3 ? i / E + 2 * (j / E) + 4 * (k / E) : j / E + 2 * (k / E);
+    if ((kept >> corner & 1U) != 0) halo[kNodeDoubles * n + kNodeWork] = 0;
+  }
 }
 
 /// Nodal sums of 8 points, one pack per channel: V[c] value, G[a][c] slope along axis a.
@@ -106,27 +132,105 @@ struct PartTraits {
   static constexpr bool last = move;  ///< velocities are final: sum the energies
 };
 
-/// Velocity and position of 8 points; adds the work of body forces.
+/// Shares of the mass it sees from which a point does not strain, and from which it carries no L.
+inline constexpr double kAlone = 0.9, kCrowd = 0.4;
+
+struct Alone {
+  Mask lone, silent;
+};
+template <int Dim>
+KRATER_FORCE_INLINE Alone alone_points(const GatherViews& view, const PointSums<Dim>& n,
+                                       const LaneWeights<Dim>& lw, int g) {
+  Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
+  for (int a = 0; a < Dim; ++a) {
+    Pack squares = 0.0;
+    for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
+    own = own * squares;
+  }
+  const Pack crowd = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
+  return {own > kAlone * n.V[3], own > crowd * n.V[3]};
+}
+
+/// Position of 8 points.
 template <class Frame, class Configuration, GatherPart Part>
 KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Frame::dim>& n,
-                                     const SweepSettings& s, int g, GatherSums& sums) {
+                                     const Pack (&old)[Frame::dim], const SweepSettings& s, int g) {
   using T = PartTraits<Part>;
-  const Pack m = view.mass(g), alpha = s.alpha;
   for (int a = 0; a < Frame::dim; ++a) {
-    const Pack plus = n.V[a], change = n.V[4 + a];
-    const Pack old = view.velocity(g, a);
-    Pack carried = plus;  // velocity the position moves with
-    if constexpr (T::velocity) {
-      const Pack fresh = fma(alpha, old - (plus - change), plus);
-      view.velocity.set(g, a, fresh);
-      sums.external =
-          fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), change, plus), sums.external);
-      if constexpr (T::mean) carried = 0.5 * (old + fresh);
-    }
-    if constexpr (T::keep || Configuration::fixed) view.kept.set(g, a, plus);
+    Pack carried = n.V[a];  // velocity the position moves with
+    if constexpr (T::mean) carried = 0.5 * (old[a] + view.velocity(g, a));
+    if constexpr (T::keep || Configuration::fixed) view.kept.set(g, a, n.V[a]);
     if constexpr (T::kept) carried = view.kept(g, a);
     if constexpr (T::move) view.position.set(g, a, fma(Pack(s.dt), carried, view.position(g, a)));
   }
+}
+
+/// W of 8 points into their energy, but for what the mean over the cell adds (settle()). Where the
+/// cell averages, the first table of `cells` must hold its volumes.
+template <class Frame, class Configuration>
+KRATER_FORCE_INLINE void book_work(const GatherViews& view, const PointSums<Frame::dim>& n,
+                                   const SweepSettings& s, const double* beta, const double* cell,
+                                   const CellSums& cells, int g) {
+  const Pack v = 1.0 / view.density(g);
+  const auto L =
+      mean_gradient<Frame, Configuration>(n.V, n.G, view.position(g, 0), reading(view.map), g);
+  Pack own = (view.pressure(g) + view.viscous(g)) * L.trace;
+  if (s.average_cells) {
+    own = fnma(look_up(beta, cell), own, own);
+    cells.second().add_value(cell, view.mass(g) * v, L.trace);
+  }
+  const Pack power = deviator_power<Frame>(view.stress, L, g) - own;
+  view.energy.set(g, fma(s.dt * v, power, view.energy(g)));
+}
+
+/// Where no mean of the cell is kept (APIC, XPIC) the loss on the way to the grid is taken pair by
+/// pair, sum S |u_ip - v-_i|^2/2 with u = v_p + L d, which no motion of the observer changes; the
+/// nodes hold k + |v-|^2, and this is the rest, v_p.s- + L : sum S v- (x) d.
+template <int Dim, bool Affine>
+KRATER_FORCE_INLINE Pack shared_motion(const GatherViews& view, const PointSums<Dim>& n,
+                                       const double* halo, LaneWeights<Dim>& lw, int g) {
+  Pack sum = 0.0;
+  for (int a = 0; a < Dim; ++a) sum = fma(view.velocity(g, a), n.V[a] - n.V[4 + a], sum);
+  if constexpr (Affine) {
+    for (int a = 0; a < Dim; ++a)
+      for (int i = 0; i < 3; ++i) store(lw.d[a][i], load(lw.xw[a][i]));
+    PointSums<Dim> moment;
+    gather_group<Dim>(halo, lw, moment);
+    for (int a = 0; a < Dim; ++a)
+      for (int i = 0; i < Dim; ++i)
+        sum = fma(view.affine(g, Dim * i + a), moment.G[a][i] - moment.G[a][4 + i], sum);
+  }
+  return sum;
+}
+
+/// Velocities of 8 points, without the means of their cells, and L; the loss of their motion into
+/// the ledger. `base`: the velocity from which the ledger counts; `loss`: sum S k.
+template <int Dim, bool Affine>
+KRATER_FORCE_INLINE void update_velocity(const GatherViews& view, const PointSums<Dim>& n,
+                                         const SweepSettings& s, const double* base, Mask silent,
+                                         Pack loss, int g, Pack (&slots)[8]) {
+  using Cell = CellLedger<Dim>;
+  const Pack m = view.mass(g), filter = 1.0 - s.alpha;
+  Pack squares = 0.0;
+  for (Pack& slot : slots) slot = 0.0;
+  slots[Cell::mass] = m;
+  for (int a = 0; a < Dim; ++a) {
+    const Pack plus = n.V[a], change = n.V[4 + a], old = view.velocity(g, a);
+    const Pack residual = old - (plus - change), flip = (old - base[a]) + change;
+    view.velocity.set(g, a, fma(Pack(s.alpha), residual, plus));
+    loss = fnma(change, fma(Pack(0.5), change, old), loss);
+    loss = fma(filter * residual, fnma(0.5 * filter, residual, flip), loss);
+    slots[Cell::residual + a] = m * residual;
+    slots[Cell::velocity + a] = m * flip;
+  }
+  if constexpr (Affine)
+    for (int a = 0; a < Dim; ++a)
+      for (int i = 0; i < Dim; ++i) {
+        const Pack old = view.affine(g, Dim * i + a), now = select(silent, Pack(0.0), n.G[a][i]);
+        view.affine.set(g, Dim * i + a, now);
+        squares = fma(old - now, old + now, squares);
+      }
+  slots[Cell::heat] = m * fma(Pack(0.125 * s.geometry->h * s.geometry->h), squares, loss);
 }
 
 /// X (I - X)^-1: the map of a step less the identity, from dt L on the configuration at its end.
@@ -146,10 +250,11 @@ KRATER_FORCE_INLINE void from_the_end(Pack (&X)[Dim][Dim]) {
 }
 
 /// f - I of the step over tensor axes into the local record; on a fixed reference F goes on to the
-/// end of the step. `Ended`: the points have moved already (usf). Returns tr L.
+/// end of the step. `Ended`: the points have moved already (usf). A lone point does not strain.
+/// Returns tr L.
 template <class Frame, class Configuration, bool Ended>
 KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
-                                        Pack r, double dt, int g) {
+                                        Mask lone, double dt, int g) {
   constexpr int D = Frame::dim;
   Pack L[D][D];
   for (int i = 0; i < D; ++i)
@@ -170,7 +275,7 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
     for (int k = 0; k < 9; ++k) view.step_gradient.set(g, k, Pack(0.0));
   Pack step[D][D];
   for (int i = 0; i < D; ++i)
-    for (int a = 0; a < D; ++a) step[i][a] = dt * L[i][a];
+    for (int a = 0; a < D; ++a) step[i][a] = dt * (L[i][a] = select(lone, Pack(0.0), L[i][a]));
   if constexpr (Ended) from_the_end<D>(step);
   for (int i = 0; i < D; ++i) {
     for (int a = 0; a < D; ++a)
@@ -178,7 +283,8 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
     trace += Ended ? step[i][i] * (1 / dt) : L[i][i];
   }
   if constexpr (Frame::hoop) {
-    const Pack hoop = n.V[0] / r, change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
+    const Pack hoop = n.V[0] / view.position(g, 0),
+               change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
     view.step_gradient.set(g, 4, change);
     trace += Ended ? change * (1 / dt) : hoop;
   }
@@ -209,26 +315,6 @@ KRATER_FORCE_INLINE void carry_domain(const GatherViews& view, int g) {
       view.domain.set(g, slot(i, j), sum);
       if (i == j) view.half_width.set(g, i, sqrt(sum));
     }
-}
-
-/// Shares of the mass it sees from which a point carries no L.
-inline constexpr double kAlone = 0.9, kCrowd = 0.4;
-
-/// L of v+, carried to the grid with the new velocity: zero for an isolated point.
-template <class Frame>
-KRATER_FORCE_INLINE void carry_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
-                                        const LaneWeights<Frame::dim>& lw, int g) {
-  constexpr int D = Frame::dim;
-  Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
-  for (int a = 0; a < D; ++a) {
-    Pack squares = 0.0;
-    for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
-    own = own * squares;
-  }
-  const Pack limit = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
-  const Mask alone = own > limit * n.V[3];
-  for (int a = 0; a < D; ++a)
-    for (int i = 0; i < D; ++i) view.affine.set(g, D * i + a, select(alone, Pack(0.0), n.G[a][i]));
 }
 
 /// Kinetic energy, affine part 1/2 m h^2/4 L:L included.
@@ -276,13 +362,13 @@ KRATER_FORCE_INLINE void note_limit(PatchResult& r, Pack rate, int kind, int g, 
     }
 }
 
-/// After the stages: shock indicator, time-step limits, internal energy of groups [first, last).
+/// After the stages: shock indicator, time-step limits of groups [first, last).
 template <int Dim, class Configuration>
 void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s, int first,
-                  int last, ReadView rate, bool indicator, GatherSums& sums) {
+                  int last, ReadView rate, bool indicator) {
   const GridGeometry& grid = *s.geometry;
   for (int g = first; g < last; ++g) {
-    const Mask valid = first_lanes(patch.count - kLanes * g);
+    const Mask valid = first_lanes(patch.points.count() - kLanes * g);
     const Pack expansion = abs(rate(g)), c = view.sound_speed(g), signal = view.signal(g);
     if (indicator) view.indicator.set(g, select(c > Pack(0.0), expansion * grid.h / c, Pack(0.0)));
     Pack speed = 0.0;
@@ -298,7 +384,6 @@ void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s,
     }
     note_limit(patch.result, fastest * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g, valid);
     note_limit(patch.result, 10.0 * expansion, 2, g, valid);
-    sums.internal = fma(view.mass(g), view.energy(g), sums.internal);
   }
 }
 

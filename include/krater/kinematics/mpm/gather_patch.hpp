@@ -14,11 +14,21 @@ inline constexpr int kStageGroups = 8;  ///< lane groups a stage works on at onc
 /// Ask for the whole record of a lane group: here the points come from memory, and the stages will
 /// want what this pass does not. The processor itself looks ahead only within a page.
 KRATER_FORCE_INLINE void fetch_record(const Patch& patch, int stride, int g) {
-  if (g >= patch.groups()) return;
-  const double* record = patch.records.data() + g * stride;
+  if (g >= patch.points.groups()) return;
+  const double* record = patch.points.data() + g * stride;
   for (int k = 0; k < stride; k += kLanes) __builtin_prefetch(record + k, 1);
 }
 inline constexpr int kFetchAhead = 3;  ///< lane groups
+
+template <int Dim>
+KRATER_FORCE_INLINE void note_velocity_fault(Patch& patch, const PointSums<Dim>& n, int g) {
+  Pack check = n.V[0];
+  for (int a = 0; a < Dim; ++a)
+    for (int i = 0; i < Dim; ++i) check += n.G[a][i];
+  const unsigned bad = bits(!is_finite(check) & first_lanes(patch.points.count() - kLanes * g));
+  if (bad != 0 && patch.result.fault.kind == FaultKind::none)
+    patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
+}
 
 /// First pass: nodes -> points.
 template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
@@ -29,45 +39,162 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
   using T = PartTraits<Part>;
   const PatchOrigin origin = origin_of<D>(patch);
   const GridGeometry& grid = *s.geometry;
+  const CellLedger<D> ledger{w.cells + kCellLedger};
+  double
+      base[D];  // of the first point, where the ledger counts from; none where no cell has a mean
+  for (int a = 0; a < D; ++a) base[a] = s.gamma > 0 ? get(view.velocity(0, a), 0) : 0;
+  if constexpr (T::velocity) ledger.clear();
   LaneWeights<D> lw;
   PointSums<D> n;
   for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     fetch_record(patch, stride, g + kFetchAhead);
-    compute_weights<D, Shape, false>(grid, origin, view.grid_position, reading(view.half_width), g,
-                                     lw);
+    compute_weights<D, Shape, Affine && T::velocity>(grid, origin, view.grid_position,
+                                                     reading(view.half_width), g, lw);
     gather_group<D>(w.halo, lw, n);
     double* cell = w.pressures + kLanes * g;
-    if (s.average_cells) store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
-    const Pack r = view.position(g, 0);
+    store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
+    const Alone alone = alone_points<D>(view, n, lw, g);
 
-    Pack check = n.V[0];
-    for (int a = 0; a < D; ++a)
-      for (int i = 0; i < D; ++i) check += n.G[a][i];
-    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
-    if (bad != 0 && patch.result.fault.kind == FaultKind::none)
-      patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
-
+    note_velocity_fault<D>(patch, n, g);
+    if constexpr (T::velocity)
+      book_work<Frame, Configuration>(view, n, s, patch.beta.data(), cell, cells, g);
     if constexpr (T::strain) {
-      const Pack trace = store_gradient<Frame, Configuration, T::ended>(view, n, r, s.dt, g);
+      const Pack trace =
+          store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s.dt, g);
       view.extra_dilatation.set(
           g, trace);  // tr L for now; average_dilatation() turns it into the increment
-      if (s.average_cells) cells.add(cell, view.mass(g) / view.density(g), trace);
+      if (s.average_cells) cells.add_value(cell, view.mass(g) / view.density(g), trace);
       if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
     }
-    if constexpr (T::velocity || T::move || T::keep) {
-      move_points<Frame, Configuration, Part>(view, n, s, g, sums);
+    if (s.average_cells) cells.add_volume(cell, view.mass(g) / view.density(g));
+    Pack old[D];
+    for (int a = 0; a < D; ++a) old[a] = view.velocity(g, a);
+    if constexpr (T::velocity) {
+      Pack slots[8];
+      Pack loss = n.V[kNodeWork];
+      if (s.moments) loss -= shared_motion<D, Affine>(view, n, w.halo, lw, g);
+      update_velocity<D, Affine>(view, n, s, base, alone.silent, loss, g, slots);
+      ledger.add(cell, slots);
+      const Pack m = view.mass(g);
+      for (int a = 0; a < D; ++a)
+        sums.external = fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), n.V[4 + a], n.V[a]),
+                            sums.external);
     }
-    if constexpr (T::velocity && Affine) carry_gradient<Frame>(view, n, lw, g);
+    if constexpr (T::velocity || T::move || T::keep)
+      move_points<Frame, Configuration, Part>(view, n, old, s, g);
     if constexpr (T::last) {
-      sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
+      if constexpr (!T::velocity) sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
       unsigned gone = 0;
       if constexpr (!Configuration::fixed)
         gone = bits(left_block<D>(s, origin, view.grid_position, g) &
-                    first_lanes(patch.count - kLanes * g));
+                    first_lanes(patch.points.count() - kLanes * g));
       w.leavers[g] = static_cast<unsigned char>(gone);
     }
   }
+}
+
+/// What the stages of a material see of the groups [first, first + groups), but for the length.
+KRATER_FORCE_INLINE BatchData batch_of(Patch& patch, const PointColumns& c, const SweepSettings& s,
+                                       const SweepScratch& w, int first, int groups) {
+  return {patch.points.data() + first * c.stride,
+          c.stride,
+          w.local + first * c.local_stride,
+          c.local_stride,
+          w.zeros,
+          groups,
+          patch.points.count() - kLanes * first,
+          first,
+          s.dt,
+          w.zeros,
+          0,
+          &patch.result.ledger,
+          &patch.result.fault,
+          0};
+}
+
+/// Debts of the points, and heat that must be taken: no more than there is. The cells' records then
+/// say what share of its own each point gives, and what it carries. False: nothing is taken.
+template <int Dim>
+bool balance_heat(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
+                  const SweepScratch& w) {
+  using Cell = CellLedger<Dim>;
+  const PointColumns& c = body.columns;
+  double* records = w.cells + kCellLedger;
+  const WriteView carried{patch.points.data() + c.carried, c.stride};
+  const ReadView mass{patch.points.data() + c.mass, c.stride};
+  for (int i = 0; i < kBlockNodes; ++i) {
+    records[8 * i + Cell::taken] = 0;
+    records[8 * i + Cell::carried] = 0;
+  }
+  for (int g = 0; g < patch.points.groups(); ++g)
+    if (any(carried(g) < Pack(0.0)))
+      add_slot(records, Cell::carried, w.pressures + kLanes * g, mass(g) * carried(g));
+  bool takes = false;
+  for (double* r = records; r < records + 8 * kBlockNodes; r += 8)
+    takes = takes || r[Cell::heat] * r[Cell::mass] + r[Cell::carried] < 0;
+  if (takes) {
+    body.heat_floor->apply(batch_of(patch, c, s, w, 0, patch.points.groups()));
+    const ReadView heat{w.local + c.local_heat, c.local_stride};
+    for (int g = 0; g < patch.points.groups(); ++g)
+      add_slot(records, Cell::taken, w.pressures + kLanes * g, mass(g) * heat(g));
+  }
+  patch.result.carried = patch.result.carriers = 0;
+  for (double* r = records; r < records + 8 * kBlockNodes; r += 8) {
+    if (!(r[Cell::mass] > 0)) continue;
+    const double due = r[Cell::heat] * r[Cell::mass] + r[Cell::carried], there = r[Cell::taken];
+    r[Cell::taken] = r[Cell::carried] = 0;
+    r[Cell::heat] = due / r[Cell::mass];
+    if (!(due < 0)) continue;
+    const double share = there > 0 ? std::min(1.0, -due / there) : 0, left = due + share * there;
+    r[Cell::heat] = 0;
+    r[Cell::taken] = share;
+    if (!(share < 1) && left < 0) {
+      r[Cell::carried] = left / r[Cell::mass];
+      patch.result.carried += left;
+      patch.result.carriers += 1;
+    } else {
+      r[Cell::heat] = left / r[Cell::mass];  // round-off
+    }
+  }
+  return takes;
+}
+
+/// The means of the cells, when all points of the patch have been seen: velocities, heat, and what
+/// the mean dilatation adds to the work of the pressure.
+template <int Dim, bool Affine, GatherPart Part>
+void settle(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w,
+            const GatherViews& view, const CellSums& cells, GatherSums& sums) {
+  using Cell = CellLedger<Dim>;
+  const PointColumns& c = body.columns;
+  const Cell ledger{w.cells + kCellLedger};
+  ledger.close(s.gamma, patch.result.heat_given, patch.result.heat_taken);
+  const bool owes = c.carried >= 0, takes = owes && balance_heat<Dim>(patch, body, s, w);
+  const WriteView carried{patch.points.data() + c.carried, c.stride};
+  const ReadView heat{w.local + c.local_heat, c.local_stride};
+  if (s.average_cells) cells.second().divide();
+  for (int g = 0; g < patch.points.groups(); ++g) {
+    const double* cell = w.pressures + kLanes * g;
+    Pack slots[8];
+    ledger.look_up(cell, slots);
+    for (int a = 0; a < Dim; ++a)
+      view.velocity.set(g, a, fma(Pack(s.gamma), slots[Cell::residual + a], view.velocity(g, a)));
+    Pack e = view.energy(g) + slots[Cell::heat];
+    if (takes) e = fnma(slots[Cell::taken], heat(g), e);
+    if (s.average_cells) {
+      const Pack share = look_up(patch.beta.data(), cell) * look_up(cells.mean_rate, cell);
+      e = fnma(s.dt / view.density(g), (view.pressure(g) + view.viscous(g)) * share, e);
+    }
+    view.energy.set(g, e);
+    if (owes) {
+      carried.set(g, slots[Cell::carried]);
+      e += slots[Cell::carried];
+    }
+    sums.internal = fma(view.mass(g), e, sums.internal);
+    if constexpr (PartTraits<Part>::last)
+      sum_kinetic<Dim, Affine>(view, 0.25 * s.geometry->h * s.geometry->h, g, sums);
+  }
+  patch.result.internal = sum(sums.internal);
 }
 
 /// ExtraDilatation: tr L -> dt beta (tr_c - tr L).
@@ -75,11 +202,11 @@ KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSetti
                                             const SweepScratch& w, const GatherViews& view,
                                             const CellSums& cells) {
   if (!s.average_cells) {
-    for (int g = 0; g < patch.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
+    for (int g = 0; g < patch.points.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
     return;
   }
   cells.divide();
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     const double* cell = w.pressures + kLanes * g;
     const Pack beta = look_up(patch.beta.data(), cell), mean = look_up(cells.value, cell);
     view.extra_dilatation.set(g, s.dt * (beta * (mean - view.extra_dilatation(g))));
@@ -92,7 +219,7 @@ KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& 
                                         const SweepSettings& s, const SweepScratch& w,
                                         const GatherViews& view) {
   const ReadView correction{w.local + c.local_correction, c.local_stride};
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     const Pack change = fma(Pack(s.dt), correction(g), view.extra_dilatation(g));
     const Pack j = det_minus_one(load_mat3(reading(view.step_gradient), g)) + 1.0;
     view.extra_dilatation.set(g, change / fma(Pack(0.5), change, j));
@@ -102,27 +229,18 @@ KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& 
 /// Second pass: constitutive update.
 template <int Dim, class Configuration>
 void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
-                const SweepScratch& w, const GatherViews& view, GatherSums& sums) {
+                const SweepScratch& w, const GatherViews& view) {
   const PointColumns& c = body.columns;
   const ReadView rate{w.local + c.local_rate, c.local_stride};
-  for (int first = 0; first < patch.groups(); first += kStageGroups) {
+  alignas(64) double length[kLanes];
+  store(length, Pack(s.geometry->h));
+  for (int first = 0; first < patch.points.groups(); first += kStageGroups) {
     const int groups =
-        patch.groups() - first < kStageGroups ? patch.groups() - first : kStageGroups;
-    const BatchData batch{patch.records.data() + first * c.stride,
-                          c.stride,
-                          w.local + first * c.local_stride,
-                          c.local_stride,
-                          w.zeros,
-                          groups,
-                          patch.count - kLanes * first,
-                          first,
-                          s.dt,
-                          s.geometry->h,
-                          &patch.result.ledger,
-                          &patch.result.fault};
+        patch.points.groups() - first < kStageGroups ? patch.points.groups() - first : kStageGroups;
+    BatchData batch = batch_of(patch, c, s, w, first, groups);
+    batch.length = length;
     for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
-    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0,
-                                     sums);
+    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0);
   }
 }
 
@@ -131,22 +249,25 @@ void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& bod
                   const SweepSettings& s, const SweepScratch& w) {
   constexpr int D = Frame::dim;
   using T = PartTraits<Part>;
-  load_halo<D>(grid.node_blocks.front().nodes, patch, w.halo);
+  load_nodes<D>(grid, patch, w.halo);
   const GatherViews view = make_views(patch, body.columns, w);
-  const CellSums cells{w.cells, w.cells + kBlockNodes};
-  if (s.average_cells) cells.clear();
-  const bool fluid = T::strain && body.columns.local_correction >= 0;
-  if (fluid) {  // with the weights of the force, before the points move
+  const CellSums cells{w.cells, w.cells + kBlockNodes, w.cells + 2 * kBlockNodes};
+  if (s.average_cells) {
+    cells.clear();
+    clear_cells(cells.mean_rate);
+  }
+  const bool fluid = body.columns.local_correction >= 0;
+  if (fluid && (T::strain || T::velocity)) {  // with the weights of the force: before points move
     load_halo<D>(s.pressure_nodes, patch, w.pressure_halo);
-    correct_dilatation(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
+    correct_dilatation<T::velocity>(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
   }
   GatherSums sums;
   gather_nodes<Frame, Shape, Affine, Configuration, Part>(patch, s, w, view, cells, sums);
+  if constexpr (T::velocity) settle<D, Affine, Part>(patch, body, s, w, view, cells, sums);
   if (T::strain && patch.result.fault.kind == FaultKind::none) {
     average_dilatation(patch, s, w, view, cells);
     if (fluid) add_correction(patch, body.columns, s, w, view);
-    run_stages<D, Configuration>(patch, body, s, w, view, sums);
-    patch.result.internal = sum(sums.internal);
+    run_stages<D, Configuration>(patch, body, s, w, view);
   }
   if (T::last) patch.result.kinetic = sum(sums.kinetic);
   if (T::velocity) patch.result.external_work = s.dt * sum(sums.external);

@@ -12,18 +12,17 @@
 ///   tr_p = tr L + sum_j S_j (D_j - T_j)/V_j,
 ///   D_j = sum_c int_c phi N_j div(v) dV,   T_j = sum_p S_j V tr L.
 /// The second line is the adjoint of the first, so that force and strain exchange exactly what one
-/// of them gives: energy as good as before. A uniform pressure gives no force inside; a closed box
-/// keeps sum V to round-off, for sum V tr_p = sum D_j = int div(v). N: quadratic B-splines,
-/// whatever S is; int over dual cells, where they are polynomials, by 2 Gauss points per axis
-/// (exact for a uniform pressure, about the axis too). phi: share of the fluid in what fills a
-/// node, contact's other fields included.
-/// Cells and the points in them take part by a weight: 1 where every node of the cell is filled
-/// to a quarter, by anything, and by the field of the fluid alone, falling to 0. A
-/// free surface is then integrated over its points (a flat one cuts off 0.1 of such a cell), and a
-/// force on a node vanishes with the mass it would move.
-/// Assumptions: current reference; a node's mean pressure is one pressure (fluids that share a
-/// field share it). Related: cell-wise pressure of staggered-grid hydrodynamics; Baumgarten &
-/// Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
+/// of them gives: the work is V (p + q) tr_p, with the mean velocity of the step. A uniform
+/// pressure gives no force inside; a closed box keeps sum V to round-off, for sum V tr_p = sum D_j
+/// = int div(v). N: quadratic B-splines, whatever S is; int over dual cells, where they are
+/// polynomials, by 2 Gauss points per axis (exact for a uniform pressure, about the axis too). phi:
+/// share of the fluid in what fills a node, contact's other fields included. Cells and the points
+/// in them take part by a weight: 1 where every node of the cell is filled to a quarter, by
+/// anything, and by the field of the fluid alone, falling to 0. A free surface is then integrated
+/// over its points (a flat one cuts off 0.1 of such a cell), and a force on a node vanishes with
+/// the mass it would move. Assumptions: current reference; a node's mean pressure is one pressure
+/// (fluids that share a field share it). Related: cell-wise pressure of staggered-grid
+/// hydrodynamics; Baumgarten & Kamrin 2023 (IJNME 124) for the errors of the points' quadrature.
 #include <algorithm>
 #include <numbers>
 
@@ -278,7 +277,7 @@ void collect_pressure(const PressureSweep<Frame, Shape>& sweep) {
   sweep.clear_tile();
   LaneWeights<D> lw;
   Channels<D> channels;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
     clear(channels.A);
@@ -299,7 +298,7 @@ void force_of_pressure(const PressureSweep<Frame, Shape>& sweep) {
   LaneWeights<D> lw;
   Channels<D> channels;
   PointSums<D> sums;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(halo, lw, sums);
     const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
@@ -340,55 +339,83 @@ void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   LaneWeights<D> lw;
   Channels<D> channels;
   PointSums<D> sums;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(halo, lw, sums);
-    Pack trace = sums.G[0][0];
-    for (int a = 1; a < D; ++a) trace += sums.G[a][a];
-    if constexpr (Frame::hoop) trace += sums.V[0] / sweep.column(sweep.c.position)(g, 0);
+    Pack trace = sums.G[0][0], change = sums.G[0][4];
+    for (int a = 1; a < D; ++a) {
+      trace += sums.G[a][a];
+      change += sums.G[a][4 + a];
+    }
+    if constexpr (Frame::hoop) {
+      const Pack r = sweep.column(sweep.c.position)(g, 0);
+      trace += sums.V[0] / r;
+      change += sums.V[4] / r;
+    }
     const Pack V = sweep.column(sweep.c.mass)(g) / sweep.column(sweep.c.density)(g);
     clear(channels.A);
     for (int a = 0; a < D; ++a) clear(channels.B[a]);
-    channels.A[kNodeDilatation] = -(sweep.cell_weight(g) * V * trace);
+    const Pack part = sweep.cell_weight(g) * V;
+    channels.A[kNodeDilatation] = -(part * trace);
+    channels.A[kNodeWorkRate] = -(part * fnma(Pack(0.5), change, trace));
     sweep.scatter(lw, channels);
   }
   sweep.for_cells([&](const CellPlace<D>& place, double part) {
     using Cell = GaussCell<Frame>;
     const Cell cell{*sweep.s.geometry, sweep.origin, place};
     const double* node = halo + kNodeDoubles * place.tile;
-    double flux[Cell::points], term[Cell::points];
-    cell.template to_points<0>(node, 0, flux);
-    const auto add = [&] {
-      for (int q = 0; q < Cell::points; ++q) flux[q] += term[q];
+    double* out = sweep.tile + kNodeDoubles * place.tile;
+    double term[Cell::points], share[Cell::points];
+    // div of the vector that begins at a slot of the nodes.
+    const auto divergence = [&](int slot, double* sum) {
+      const auto add = [&] {
+        for (int q = 0; q < Cell::points; ++q) sum[q] += term[q];
+      };
+      cell.template to_points<0>(node, slot, sum);
+      cell.template to_points<1>(node, slot + 1, term);
+      add();
+      if constexpr (D == 3) {
+        cell.template to_points<2>(node, slot + 2, term);
+        add();
+      }
+      if constexpr (Frame::hoop) {
+        cell.to_points(node, slot, term);
+        for (int q = 0; q < Cell::points; ++q) term[q] /= cell.r[q];
+        add();
+      }
     };
-    cell.template to_points<1>(node, 1, term);
-    add();
-    if constexpr (D == 3) {
-      cell.template to_points<2>(node, 2, term);
-      add();
+    double flux[Cell::points], work[Cell::points];
+    divergence(0, flux);
+    divergence(4, work);  // of dv
+    cell.to_points(shares + kNodeDoubles * place.tile, kNodeShare, share);
+    for (int q = 0; q < Cell::points; ++q) {
+      const double weight = part * cell.weight[q] * share[q];
+      work[q] = weight * (flux[q] - 0.5 * work[q]);
+      flux[q] *= weight;
     }
-    if constexpr (Frame::hoop) {
-      cell.to_points(node, 0, term);
-      for (int q = 0; q < Cell::points; ++q) term[q] /= cell.r[q];
-      add();
-    }
-    cell.to_points(shares + kNodeDoubles * place.tile, kNodeShare, term);
-    for (int q = 0; q < Cell::points; ++q) flux[q] *= part * cell.weight[q] * term[q];
-    cell.to_nodes(flux, sweep.tile + kNodeDoubles * place.tile, kNodeDilatation);
+    cell.to_nodes(flux, out, kNodeDilatation);
+    cell.to_nodes(work, out, kNodeWorkRate);
   });
 }
 
-/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record.
-template <class Frame, class Shape>
+/// Nodes hold (D_j - T_j)/V_j -> the points' sum S of it, into the local record. `works`: the same
+/// of the mean velocity, times the pressure, is part of the work that the points' energy receives.
+template <bool works, class Frame, class Shape>
 void correct_dilatation(const PressureSweep<Frame, Shape>& sweep) {
   constexpr int D = Frame::dim;
   const WriteView out{sweep.w.local + sweep.c.local_correction, sweep.c.local_stride};
   LaneWeights<D> lw;
   PointSums<D> sums;
-  for (int g = 0; g < sweep.patch.groups(); ++g) {
+  for (int g = 0; g < sweep.patch.points.groups(); ++g) {
     sweep.weights(g, lw);
     gather_group<D>(sweep.w.pressure_halo, lw, sums);
     out.set(g, sums.V[kNodeDilatation]);
+    if constexpr (works) {
+      const Pack P = sweep.column(sweep.c.pressure)(g) + sweep.column(sweep.c.viscous)(g),
+                 v = 1.0 / sweep.column(sweep.c.density)(g);
+      const WriteView e{sweep.patch.points.data() + sweep.c.energy, sweep.c.stride};
+      e.set(g, fnma(sweep.s.dt * v * P, sums.V[kNodeWorkRate], e(g)));
+    }
   }
 }
 

@@ -6,8 +6,9 @@
 /// line is plain data.
 ///
 /// Node record, 8 doubles. After the scatter: [m, p_0, p_1, p_2, f_0, f_1, f_2, V]; after the
-/// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-. Two-dimensional
-/// frames leave index 2 unused.
+/// momentum update: [v+_0, v+_1, v+_2, m, dv_0, dv_1, dv_2, V] with dv = v+ - v-; for the gather
+/// the work k of the step (kinematics/mpm/ledger.hpp) takes the place of V. Two-dimensional frames
+/// leave index 2 unused.
 #include <array>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct BodyKernelData {
   PointColumns columns;
   const Stage* const* stages = nullptr;
   int stage_count = 0;
+  const Stage* heat_floor = nullptr;  ///< none: the pressure does not know the energy
 };
 
 inline std::vector<PointColumns> columns_of(const std::vector<BodyKernelData>& bodies) {
@@ -36,6 +38,8 @@ struct SweepSettings {
   const GridGeometry* geometry = nullptr;
   double dt = 0;
   double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
+  double gamma = 0;            ///< share of its mean over the cell that is given back
+  bool moments = false;        ///< none is: the ledger takes the loss pair by pair
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18
   const double* pressure_nodes = nullptr;  ///< second records of all node blocks; none: no fluid
@@ -49,12 +53,15 @@ struct MomentumSettings {
   double flush_velocity = 0;  ///< slower nodes are at rest [m/s]
 };
 
+/// Of each cell volume, dilatation, that of the mean gradient, and the record of the ledger.
+inline constexpr std::size_t kCellDoubles = 11 * kBlockNodes;
+
 /// Memory of one thread.
 struct SweepScratch {
   double* halo;            ///< tile_nodes * kNodeDoubles
   double* pressure_halo;   ///< the same, of the second records
   double* local;           ///< groups of a patch * local stride
-  double* cells;           ///< 2 * kBlockNodes: sum and mean of each cell
+  double* cells;           ///< kCellDoubles: sums and means of each cell
   double* pressures;       ///< 8 per group: the cell of each point, to look its mean up
   unsigned char* leavers;  ///< 1 per group: lanes that left the block or the domain
   const double* zeros;
@@ -84,6 +91,9 @@ class Kernels {
   virtual void sum_tiles(const BlockGrid& grid, NodeBlock& block) const = 0;
   /// v- = p/m, dv = dt_force f/m, v+ = v- + dv, and the sums of the audit.
   virtual void momentum(NodeBlock& block, const MomentumSettings& s) const = 0;
+  /// k of each node in place of its volume, when v+ is final (kinematics/mpm/ledger.hpp);
+  /// with `moments` k + |v-|^2.
+  virtual void work(NodeBlock& block, bool moments) const = 0;
   /// Velocities, positions, stresses of one patch from the nodes.
   virtual void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
                       const SweepSettings& s, const SweepScratch& w, GatherPart part) const = 0;

@@ -18,6 +18,7 @@
 #include "krater/core/stopwatch.hpp"
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/energy_watch.hpp"
+#include "krater/kinematics/kinematics.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
 #include "krater/kinematics/mpm/migrate.hpp"
 #include "krater/kinematics/mpm/options.hpp"
@@ -30,40 +31,43 @@ enum class Phase : std::size_t { scatter, nodes, contact, boundary, gather, migr
 inline constexpr std::array<const char*, 6> phase_names{
     "scatter", "nodes", "contact", "boundary", "gather_and_stress", "migrate"};
 
-/// What limits the time step. By the point's id: patches are sorted anew when points migrate.
-struct TimeStepLimit {
-  double rate = 0;  ///< 1/dt at CFL 1 [1/s]
-  int kind = 0;     ///< 0 wave speed, 1 material velocity, 2 volume change
-  int body = -1;
-  double id = -1;
-};
-
-/// Thrown by advance(): where a step broke. The points are left as they were when it was noticed.
+/// Thrown by a step: where it broke. The points are left as they were when it was noticed.
 struct StepFault {
   int patch;
   Fault fault;
 };
 
-class MpmStep {
+class MpmStep final : public Kinematics {
  public:
   /// All references must outlive the step. `bodies[b]` belongs to patches with body == b. `plain`:
   /// the same kernels without the affine part, for projections of point velocities alone; on a
   /// fixed reference with it, for the present positions of nodes.
   /// `rigid`: bodies that move as a whole; their points are scattered, never gathered.
-  MpmStep(const MethodOptions& method, BlockGrid& grid, BoundarySet& boundary, ContactSet& contact,
-          RigidBodies& rigid, const Kernels& kernels, const Kernels& plain,
-          const std::vector<BodyKernelData>& bodies);
+  struct Parts {
+    BlockGrid& grid;
+    BoundarySet& boundary;
+    ContactSet& contact;
+    RigidBodies& rigid;
+    const Kernels& kernels;
+    const Kernels& plain;
+    const std::vector<BodyKernelData>& bodies;
+    Audit& audit;
+  };
+  MpmStep(const MethodOptions& method, const Parts& parts);
 
-  /// Advance by `dt`, or by half of it, again halved, while the grid's change of velocity would
-  /// move material by more than 0.3 cells (checked on the nodes, before a point is touched).
-  /// Returns the step taken. Throws StepFault, EnergyError.
-  double advance(double dt);
+  /// Halved, and halved again, while the grid's change of velocity would move material by more than
+  /// 0.3 cells. Throws StepFault.
+  double force(double dt) override;
+  void meet(double dt) override;  ///< throws EnergyError
+  void move(double dt) override;  ///< throws StepFault
+  const TimeStepLimit& limit() const override { return limit_; }
+
+  int set_count() const override { return static_cast<int>(grid_.patches().size()); }
+  PointSet set(int s) const override;
+  PointStore& change(int s) override;
 
   /// Wall-clock seconds spent in a phase since construction.
   double seconds(Phase phase) const { return watch_.seconds(static_cast<std::size_t>(phase)); }
-  Audit& audit() { return audit_; }
-  const Audit& audit() const { return audit_; }
-  const TimeStepLimit& limit() const { return limit_; }  ///< found by the last step
   /// Call after points were added or read from a checkpoint: links, memory, padding.
   void relink();
   /// The step taken last, after a restart [s].
@@ -84,24 +88,28 @@ class MpmStep {
   struct Constraints {
     BoundaryWork walls;
     ContactWork contact;
-    double work() const { return walls.work + contact.work; }
+    double change() const { return walls.change + contact.change; }
   };
   /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
   Constraints constrain(bool projection = false);
   void begin_rigid(double dt, GridEnergy& energy);
+  void finish_rigid(double dt);
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
-  void book(const Audit::StepEnergies& energies, const Constraints& constraints);
+  void write_node_work();
+  void book();
   void halve_until_safe(double& dt, double max_change);
-  void watch_energy(const GridEnergy& grid, const Constraints& c) const;
+  void watch_energy() const;
   void name_limit(Patch& patch) const;
-  void account_folds(Constraints& constraints, double dt) const;
+  void account_folds(double dt);
   bool may_sleep(GatherPart part) const;
   bool asleep(const NodeBlock& block) const;
   bool may_scatter_ahead(GatherPart part) const;
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
-  std::array<double, 3> filter_velocity();
+  void filter_velocity(std::array<double, 3>& impulse);
+  void note_forces();
+  void write_filtered_work();
   void relink_fluids();
   double* second_record(double* node);
   void sweep_fluids(PressurePart part, const SweepSettings& s);
@@ -114,7 +122,7 @@ class MpmStep {
   void add_pressure_force(const SweepSettings& s);
   void correct_dilatation(const SweepSettings& s);
   void grid_to_particles(GatherPart part, double dt);
-  void combine_patches(bool forces_worked);
+  void combine_patches(GatherPart part);
   void provide_memory();
   void throw_faults() const;
   void migrate();
@@ -123,9 +131,8 @@ class MpmStep {
   SweepSettings settings(double dt) const;
   SweepScratch scratch();
 
-  double step_usl(double dt);
-  double step_musl(double dt);
-  double step_usf(double dt);
+  void strain_last_motion();
+  void project_again(double dt);
 
   MethodOptions method_;
   BlockGrid& grid_;
@@ -140,9 +147,12 @@ class MpmStep {
   std::vector<BodyKernelData> position_as_velocity_;  ///< fixed reference: x and F as v and L
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
 
-  Audit audit_;
+  Audit& audit_;
   EnergyWatch energy_watch_;
+  GridEnergy grid_energy_{};  ///< of the step under way, as are the next two
+  Constraints constraints_;
   bool loaded_;  ///< body forces act
+  Audit::StepHeat heat_;
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;
   std::vector<std::size_t> boundary_blocks_;

@@ -35,8 +35,8 @@ template <int Dim>
 void sum_block(const BlockGrid& grid, NodeBlock& block) {
   for (int i = 0; i < kBlockNodes * kNodeDoubles; i += 8) store(block.nodes + i, Pack(0.0));
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
-    const TileRef& ref = grid.tile_refs[static_cast<unsigned>(t)];
-    add_tile<Dim>(grid.patches[static_cast<unsigned>(ref.patch)].tile.data(), ref.corner,
+    const TileRef& ref = grid.tile_refs()[static_cast<unsigned>(t)];
+    add_tile<Dim>(grid.patches()[static_cast<unsigned>(ref.patch)].tile.data(), ref.corner,
                   block.nodes);
   }
 }
@@ -91,6 +91,23 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& 
   block.still = none(moving);
   block.inert = block.still && none(loaded);
   block.sums = {0.5 * sum(before), 0.5 * sum(after), hmax(sqrt(change))};
+}
+
+/// k = (v- + dv/2) . dv in place of the volume, from the final v+ (kinematics/mpm/ledger.hpp).
+KRATER_FORCE_INLINE void work_of_block(NodeBlock& block, bool moments) {
+  for (int first = 0; first < kBlockNodes; first += kLanes) {
+    double* record = block.nodes + kNodeDoubles * first;
+    Pack n[8];
+    for (int i = 0; i < 8; ++i) n[i] = load(record + 8 * i);
+    transpose8(n);
+    Pack k = 0.0;
+    for (int a = 0; a < 3; ++a) k = fma(fnma(Pack(0.5), n[4 + a], n[a]), n[4 + a], k);
+    if (moments)
+      for (int a = 0; a < 3; ++a) k = fma(n[a] - n[4 + a], n[a] - n[4 + a], k);
+    alignas(64) double out[8];
+    store(out, k);
+    for (int i = 0; i < 8; ++i) record[8 * i + kNodeWork] = out[i];
+  }
 }
 
 }  // namespace krater::inline KRATER_ISA

@@ -12,7 +12,8 @@ inline constexpr int kNodeReach = 2;     ///< before P is known: kNodeFill, with
                                          ///< that are folded, which move with their mirror image
 inline constexpr int kNodeOwn = 3;       ///< before P is known: volume of the field [m^3]
 inline constexpr int kNodeDilatation = 3;  ///< D - T [m^3/s], then over the volume [1/s]
-inline constexpr int kNodeForce = 4;       ///< 4 to 6 [N]
+inline constexpr int kNodeWorkRate = 4;    ///< the same with the mean velocity of the step
+inline constexpr int kNodeForce = 4;       ///< 4 to 6 [N], before that
 inline constexpr int kNodeFill = 7;        ///< volume of all fields [m^3]
 
 /// The sweeps over the points of a patch.

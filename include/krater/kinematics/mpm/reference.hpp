@@ -24,9 +24,10 @@ namespace krater {
 double largest_strain(const BlockGrid& grid, int body);
 
 /// Take the current configuration of a body as reference. Returns what left through open sides;
-/// `kinetic_change`: of the affine part [J]. Relink afterwards.
+/// `heat`: lost by the affine part, and given to the points as internal energy [J]. Relink
+/// afterwards.
 Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
-                        const PointColumns& columns, double& kinetic_change);
+                        const PointColumns& columns, double& heat);
 
 /// Add the accelerations of all walls to the points' body forces. `spacing`: of the points on the
 /// reference [m]. Returns the impulse per unit of time [N].

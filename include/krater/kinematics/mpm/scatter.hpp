@@ -14,7 +14,7 @@ namespace krater::inline KRATER_ISA {
 /// A column of the state, or zeros where it does not exist.
 KRATER_FORCE_INLINE ReadView state_view(const Patch& patch, int offset, int stride,
                                         const double* zeros) {
-  return offset < 0 ? ReadView{zeros, 0} : ReadView{patch.records.data() + offset, stride};
+  return offset < 0 ? ReadView{zeros, 0} : ReadView{patch.points.data() + offset, stride};
 }
 
 /// What the first pass over a patch leaves for the second, in SweepScratch::cells and ::pressures.
@@ -32,7 +32,8 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
                 const SweepScratch& w) {
   const auto column = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
   const ReadView x = column(c.grid_position), p = column(c.pressure), q = column(c.viscous),
-                 m = column(c.mass), rho = column(c.density), indicator = column(c.indicator);
+                 m = column(c.mass), rho = column(c.density), indicator = column(c.indicator),
+                 failed = column(c.failed);
   const PatchOrigin origin = origin_of<Dim>(patch);
   const CellSums sums{w.cells, w.cells + kBlockNodes};
   double* beta = patch.beta.data();
@@ -40,7 +41,7 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
     sums.clear();
     clear_cells(beta);
   }
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     const LocalCell cell = local_cell<Dim>(*s.geometry, origin, x, g);
     if (!all(cell.inside)) {
       patch.result.fault = {FaultKind::not_finite_input, g, bits(!cell.inside)};
@@ -50,7 +51,7 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
     double* cells = w.pressures + kLanes * g;
     store(cells, cell.index);
     sums.add(cells, m(g) / rho(g), p(g) + q(g));
-    note_shock(cells, indicator(g), beta);
+    note_shock(cells, select(failed(g) > Pack(0.5), Pack(kShockOn), indicator(g)), beta);
   }
   if (s.average_cells) {
     sums.divide();
@@ -139,11 +140,11 @@ void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings
   const ReadView half_width = state_view(patch, c.half_width, c.stride, w.zeros);
   LaneWeights<D> lw;
   Channels<D> channels;
-  for (int g = 0; g < patch.groups(); ++g) {
+  for (int g = 0; g < patch.points.groups(); ++g) {
     compute_weights<D, Shape, Affine>(*s.geometry, origin, x, half_width, g, lw);
     const Pack check = load_channels<Frame, Affine, Configuration>(
         patch, c, w, s.average_cells ? &averages : nullptr, g, channels);
-    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.count - kLanes * g));
+    const unsigned bad = bits(!is_finite(check) & first_lanes(patch.points.count() - kLanes * g));
     if (bad != 0 && patch.result.fault.kind == FaultKind::none)
       patch.result.fault = {FaultKind::not_finite_input, g, bad};
     for (int l = 0; l < kLanes; ++l) {

@@ -21,6 +21,7 @@ class TransferKernels final : public Kernels {
   void momentum(NodeBlock& block, const MomentumSettings& s) const override {
     update_block(block, s);
   }
+  void work(NodeBlock& block, bool moments) const override { work_of_block(block, moments); }
   void gather(Patch& patch, const BlockGrid& grid, const BodyKernelData& body,
               const SweepSettings& s, const SweepScratch& w, GatherPart part) const override {
     if constexpr (Configuration::fixed) return run<GatherPart::all>(patch, grid, body, s, w);
@@ -51,7 +52,7 @@ class TransferKernels final : public Kernels {
       case PressurePart::force:
         return force_of_pressure(sweep);
       case PressurePart::dilatation:
-        load_halo<Frame::dim>(grid.node_blocks.front().nodes, patch, w.halo);
+        load_nodes<Frame::dim>(grid, patch, w.halo);
         return sum_dilatation(sweep);
     }
   }

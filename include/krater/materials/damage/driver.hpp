@@ -6,6 +6,8 @@
 ///   bool degrades() const    the stress is (1 - phi) s~; otherwise phi only tells the failure
 ///   double limit() const     phi_c: the point fails there
 ///   static constexpr bool reads_temperature
+///   static constexpr bool needs_flow    false: it grows by Growth::source, the strength need not
+///                                       yield (true where a law does not say)
 #pragma once
 
 #include "krater/core/lane_math.hpp"
@@ -24,7 +26,15 @@ struct DamageDriver {
   Real K, G;         ///< bulk modulus (theory 9) and shear modulus
   Real rate;         ///< equivalent strain rate of the step
   Real temperature;  ///< zero for laws that do not read it
+  double dt = 0;     ///< [s], for damage that grows with time
 };
+
+/// A damage law that grows with plastic strain alone: it needs a strength that yields.
+template <class Law>
+inline constexpr bool needs_flow = true;
+template <class Law>
+requires requires { Law::needs_flow; }
+inline constexpr bool needs_flow<Law> = Law::needs_flow;
 
 /// Damage is less than this wherever it degrades: 1 - phi is divided by.
 inline constexpr double kMostDamage = 0.999;

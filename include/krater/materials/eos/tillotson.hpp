@@ -13,8 +13,9 @@
 /// e = 0, which strong cold tension reaches, w stays 1/2 or more: as printed it has a pole there.
 /// g = 1 for x >= 0.8 and 0 for x <= 0.5 (`cohesion`, split.hpp): as printed the condensed part of
 /// a thin gas tends to B - A, a tension of 10 GPa in aluminium, wherever e < E_cv. Where it ends,
-/// so does the negative heat of e < 0: p >= 0 for x <= 0.5. c^2 is floored where the tension falls,
-/// and counted.
+/// so does the negative heat of e < 0: p >= 0 for x <= 0.5, and where g < 1 the slope by e jumps at
+/// e = 0 too (K_s is that of e >= 0 there). c^2 is floored where the tension falls, and counted.
+/// The deviator ends with the tension (materials/stages/cohesion_stage.hpp).
 #pragma once
 
 #include "krater/core/lane_math.hpp"
@@ -30,6 +31,7 @@ struct Tillotson {
 
   static constexpr Family family = Family::eos;
   static constexpr const char* name = "tillotson";
+  static constexpr bool parts = true;  ///< its deviator ends as its cold tension does (cohesion)
   static constexpr const char* equation =
       "condensed: p = (a + b/w) rho e + g (A mu + B mu^2), w = e/(E0 x^2) + 1, g from 1 to 0 "
       "between x = 0.8 and 0.5; expanded: p = a rho e + (b rho e/w + A mu exp(-beta (1/x - 1))) "

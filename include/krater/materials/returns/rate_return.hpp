@@ -10,27 +10,34 @@
 ///   -3G + k sigma_Y/(1 - phi_n) - r sigma_Y';
 /// where k sigma_Y > 3G (1 - phi_n) at the root, softening has snapped back and the point must
 /// fail. Where it is not, sigma_Y being monotone, the root is the only one to its left: the
-/// smallest.
+/// smallest. Damage that needs no plastic strain (Growth::source) is added after the return.
 #pragma once
 
 #include "krater/materials/returns/radial_return.hpp"
 
 namespace krater::inline KRATER_ISA {
 
-/// How damage grows with plastic strain in one step.
+/// How damage grows in one step: with plastic strain, and by what needs none.
 template <class Real>
 struct Growth {
-  Real k;      ///< d phi/d eps
-  Real eps_D;  ///< no growth below
-  Real phi_c;
+  Real k;             ///< d phi/d eps
+  Real eps_D;         ///< no growth with plastic strain below
+  Real phi_c;         ///< failure
+  Real source = 0.0;  ///< growth of phi in the step that does not ask for plastic strain
 };
 
-/// phi after plastic strain d, eps the plastic strain then.
+/// phi after plastic strain d, eps the plastic strain then: the part that the return sees.
 template <class Real>
-KRATER_FORCE_INLINE Real damage_after(const Growth<Real>& growth, Real phi, Real eps, Real d) {
+KRATER_FORCE_INLINE Real damage_by_flow(const Growth<Real>& growth, Real phi, Real eps, Real d) {
   // <eps - max(eps - d, eps_D)> without the cancellation; the order of operands lets a NaN through.
   const Real strain = max(Real(0.0), min(d, eps - growth.eps_D));
   return min(growth.phi_c, fma(growth.k, strain, phi));
+}
+
+/// phi of the end of the step.
+template <class Real>
+KRATER_FORCE_INLINE Real damage_after(const Growth<Real>& growth, Real phi, Real eps, Real d) {
+  return min(growth.phi_c, damage_by_flow(growth, phi, eps, d) + growth.source);
 }
 
 template <class Real>
@@ -55,7 +62,7 @@ KRATER_FORCE_INLINE RateStep<Real> rate_return(const Curve& curve, Real q_trial,
   Real x = select(active, select(usable, strain, high), Real(1.0));
   for (int i = 0; i < cap && any(active); ++i) {
     const Flow<Real> flow = flow_at(curve, eps + x, x * per_dt);
-    const Real phi_x = damage_after(growth, phi, eps + x, x);
+    const Real phi_x = damage_by_flow(growth, phi, eps + x, x);
     const Real ratio = (Real(1.0) - phi_x) * per_intact;
     const Real carried = ratio * flow.stress;
     const Real rest = fnma(three_G, x, q_trial) - carried;

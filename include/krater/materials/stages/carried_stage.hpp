@@ -103,8 +103,8 @@ class CarriedStage final : public Stage {
         carried_loss_{layout.local_output<field::CarriedLoss>(kName)} {
     if constexpr (grows) {
       phi_ = layout.state<field::Damage>(0.0, kName);
-      eps_ = layout.input<field::PlasticStrain>(kName);
-      increment_ = layout.local_input<field::PlasticIncrement>(kName);
+      eps_ = layout.optional<field::PlasticStrain>();
+      increment_ = layout.local_optional<field::PlasticIncrement>();
       growth_ = layout.local_input<field::DamageGrowth>(kName);
       snap_back_ = layout.local_optional<field::SnapBack>();
     }
@@ -129,7 +129,7 @@ class CarriedStage final : public Stage {
     const auto phi_p = view(batch, phi_);
     const auto failed_p = view(batch, failed_);
     const auto growth_p = view(batch, growth_);
-    const Growth<Pack> growth{growth_p(g, 0), growth_p(g, 1), growth_p(g, 2)};
+    const Growth<Pack> growth{growth_p(g, 0), growth_p(g, 1), growth_p(g, 2), growth_p(g, 3)};
     const Pack before = failed_p(g);
     const Pack phi =
         damage_after(growth, phi_p(g), view(batch, eps_)(g), view(batch, increment_)(g));
@@ -176,9 +176,9 @@ class CarriedStage final : public Stage {
   LocalOutput<field::ShearModulus> shear_;
   LocalOutput<field::PlasticWork> plastic_work_;
   LocalOutput<field::CarriedLoss> carried_loss_;
-  State<field::Damage> phi_{-1};  // these five: where damage grows
-  Input<field::PlasticStrain> eps_{-1};
-  LocalInput<field::PlasticIncrement> increment_{-1};
+  State<field::Damage> phi_{-1};            // these five: where damage grows
+  Optional<field::PlasticStrain> eps_{-1};  // absent: brittle damage of a law that never yields
+  LocalOptional<field::PlasticIncrement> increment_{-1};
   LocalInput<field::DamageGrowth> growth_{-1};
   LocalOptional<field::SnapBack> snap_back_{-1};
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// How fast damage grows in this step: k = d phi/d eps and where growth starts, from the effective
-/// stresses (Decision 10), p~ (start_stage.hpp) and bulk modulus of the start of the step, q~ and
-/// rate of the step (theory 4, 6, 7). With `coupling: effective` it follows the return, with `rate`
-/// it precedes it.
+/// How fast damage grows in this step: k = d phi/d eps and where growth starts, and what grows
+/// without plastic strain, from the effective stresses (Decision 10), p~ (start_stage.hpp) and bulk
+/// modulus of the start of the step, q~ and rate of the step (theory 4, 6, 7). With `coupling:
+/// effective` it follows the return, with `rate` it precedes it.
 #pragma once
 
 #include "krater/materials/batch_access.hpp"
@@ -37,6 +37,7 @@ class GrowthStage final : public Stage {
     const double per_dt = 1.0 / batch.dt;
     for (int g = 0; g < batch.groups; ++g) {
       DamageDriver<Pack> x;
+      x.dt = batch.dt;
       x.s = load_sym3(view(batch, effective_), g);
       x.q = view(batch, q_)(g);
       const Pack c = c_p(g);
@@ -51,6 +52,7 @@ class GrowthStage final : public Stage {
       growth_p.set(g, 0, growth.k);
       growth_p.set(g, 1, growth.eps_D);
       growth_p.set(g, 2, growth.phi_c);
+      growth_p.set(g, 3, growth.source);
     }
   }
 

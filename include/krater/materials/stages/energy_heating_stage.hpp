@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Temperature of the end of the step from its internal energy (heating/internal_energy.hpp). The
-/// strength of the next step reads it, like that of plastic heating.
+/// strength of the next step reads it, like that of plastic heating. Where a ledger keeps the
+/// energy at the middle of the step, half of the step's work is added here, and here alone.
 #pragma once
 
 #include "krater/materials/batch_access.hpp"
@@ -31,6 +32,7 @@ class EnergyHeatingStage final : public Stage {
         voids_{layout.optional<field::VoidVolume>()},
         distension_{layout.optional<field::Distension>()},
         volumes_{layout.local_input<field::SpecificVolumes>(kName)},
+        work_{layout.local_input<field::SpecificWork>(kName)},
         shear_{layout.local_optional<field::ShearModulus>()} {
     isentrope_.tabulate(law, constants.initial_temperature);
   }
@@ -38,8 +40,12 @@ class EnergyHeatingStage final : public Stage {
   void apply(const BatchData& batch) const override {
     const auto T_p = view(batch, temperature_);
     const auto e_p = view(batch, e_);
+    const auto p_p = view(batch, p_);
+    const auto v_p = view(batch, volumes_);
+    const auto work_p = view(batch, work_);
+    const Pack missing = 0.5 - 0.5 * batch.energy_share;
     for (int g = 0; g < batch.groups; ++g) {
-      const Pack e = e_p(g);
+      const Pack e = fma(missing, work_p(g) - p_p(g) * (v_p(g, 1) - v_p(g, 0)), e_p(g));
       const auto reference = isentrope_.at((density(batch, g, e) - law_.rho0) * (1.0 / law_.rho0));
       T_p.set(g,
               fma(e - elastic(batch, g) - reference.energy, Pack(per_cv_), reference.temperature));
@@ -83,6 +89,7 @@ class EnergyHeatingStage final : public Stage {
   Optional<field::VoidVolume> voids_;
   Optional<field::Distension> distension_;
   LocalInput<field::SpecificVolumes> volumes_;
+  LocalInput<field::SpecificWork> work_;
   LocalOptional<field::ShearModulus> shear_;
 };
 

@@ -18,6 +18,8 @@
 /// A strength law may keep voids out of the equation of state, v - void_volume, and limit the
 /// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
 /// c^2 = K_s/rho, floored at 0.01 c0^2 and counted.
+/// Where a ledger books the work (BatchData::energy_share 0) e is that of t_{n+1/2}; the pressure
+/// is half a step ahead of it, e* = e + half the work of viscosity and deviator, and e stays.
 #pragma once
 
 #include "krater/materials/batch_access.hpp"
@@ -116,9 +118,9 @@ KRATER_FORCE_INLINE CarriedEnergyStep<Real> close_carried(const PressureSplit<Re
           carried < Real(-spall_strength)};
 }
 
-/// `has_voids`: the strength law keeps voids out of the equation of state and limits the effective
+/// `dilates`: the strength law keeps voids out of the equation of state and limits the effective
 /// tension.
-template <class Law, Tension tension, bool has_voids>
+template <class Law, Tension tension, bool dilates>
 class EosStage final : public Stage {
  public:
   EosStage(const Law& law, double spall_strength, Layout& layout)
@@ -133,7 +135,7 @@ class EosStage final : public Stage {
         work_{layout.local_input<field::SpecificWork>(Law::name)} {
     if constexpr (carries) loss_ = layout.local_optional<field::CarriedLoss>();
     if constexpr (parts) failed_ = layout.state<field::Failed>(0.0, Law::name);
-    if constexpr (has_voids) {
+    if constexpr (dilates) {
       voids_ = layout.input<field::VoidVolume>(Law::name);
       tension_limit_ = layout.local_input<field::TensionLimit>(Law::name);
     }
@@ -147,13 +149,14 @@ class EosStage final : public Stage {
     const auto v_p = view(batch, volumes_);
     const auto w_p = view(batch, work_);
     const Pack floor = Pack(0.01 * law_.c0 * law_.c0);
+    const Pack share = batch.energy_share, ahead = 0.5 + 0.5 * batch.energy_share;
     for (int g = 0; g < batch.groups; ++g) {
       const auto& law = state_.at(law_, batch, g);
       Pack rho = rho_p(g);
       Pack v = v_p(g, 1);
       const Pack per_rho = v;
       const Pack dv = v - v_p(g, 0);
-      if constexpr (has_voids) {
+      if constexpr (dilates) {
         v = v - view(batch, voids_)(g);
         rho = 1.0 / v;
       }
@@ -164,10 +167,10 @@ class EosStage final : public Stage {
         step = all.step;
         effective = all.effective;
       } else {
-        step = advance_energy(law, rho, v, p_p(g), e_p(g), dv, w_p(g));
+        step = advance_energy(law, rho, v, share * p_p(g), e_p(g), dv, ahead * w_p(g));
         effective = step.pressure;
       }
-      if constexpr (has_voids) {
+      if constexpr (dilates) {
         const Pack least = view(batch, tension_limit_)(g);
         Pack carried = least;
         if constexpr (carries) carried = least * (Pack(1.0) - view(batch, loss_)(g, 0));
@@ -176,7 +179,7 @@ class EosStage final : public Stage {
       }
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
       p_p.set(g, step.pressure);
-      e_p.set(g, step.energy);
+      e_p.set(g, select(share > Pack(0.0), step.energy, e_p(g)));
       if constexpr (OwnsState<Law>) state_.set(batch, g, law.after(rho, v, step.energy));
       const auto& after = state_.at(law_, batch, g);
       const Pack c_squared = after.bulk_modulus(rho, v, effective, step.energy) * per_rho;
@@ -202,7 +205,8 @@ class EosStage final : public Stage {
   KRATER_FORCE_INLINE CarriedEnergyStep<Pack> carried(const BatchData& batch, int g,
                                                       const auto& law, const Volume& x) const {
     const auto loss = view(batch, loss_);
-    const Pack p = view(batch, p_)(g), e = view(batch, e_)(g), work = view(batch, work_)(g);
+    const Pack p = batch.energy_share * view(batch, p_)(g), e = view(batch, e_)(g),
+               work = (0.5 + 0.5 * batch.energy_share) * view(batch, work_)(g);
     Pack tension_loss = loss(g, 0);
     if constexpr (parts) {
       const Pack failed = view(batch, failed_)(g);

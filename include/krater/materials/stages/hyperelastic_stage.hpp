@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
 /// Stage of a law that gives the whole stress from F: deviator, pressure, energy and sound speed,
-/// no equation of state. F is updated by the kinematics stage if it was a column when that was
-/// made; otherwise this stage declares it and updates it. New points have F = I. The law sees
+/// no equation of state. The kinematics stage keeps F; new points have F = I. The law sees
 /// (J_bar/J)^(1/3) F with the cell-averaged volume J_bar = rho_0/rho: the force takes the averaged
 /// pressure, and the work of one without the other is a source of energy (theory 18).
 #pragma once
@@ -10,7 +9,6 @@
 #include "krater/core/lane_math.hpp"
 #include "krater/materials/batch_access.hpp"
 #include "krater/materials/law.hpp"
-#include "krater/materials/stages/kinematics_stage.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -19,15 +17,14 @@ concept WholeStress = requires {
   requires Law::whole_stress;
 };
 
-template <class Law, bool updates_F>
+template <class Law>
 class HyperelasticStage final : public Stage {
  public:
   HyperelasticStage(const Law& law, const MaterialConstants& constants, Layout& layout)
       : law_{law},
         c0_squared_{law.reference_modulus() / constants.density},
-        F_{layout.state<field::DeformationGradient>(0.0, Law::name)},
+        F_{layout.input<field::DeformationGradient>(Law::name)},
         rho_{layout.input<field::Density>(Law::name)},
-        dtL_{layout.local_input<field::StepGradient>(Law::name)},
         s_{layout.state<field::DeviatoricStress>(0.0, Law::name)},
         p_{layout.state<field::Pressure>(0.0, Law::name)},
         e_{layout.state<field::InternalEnergy>(0.0, Law::name)},
@@ -37,22 +34,18 @@ class HyperelasticStage final : public Stage {
   void apply(const BatchData& batch) const override {
     const auto F_p = view(batch, F_);
     const auto rho_p = view(batch, rho_);
-    const auto dtL_p = view(batch, dtL_);
     const auto p_p = view(batch, p_);
     const auto e_p = view(batch, e_);
     const auto c_p = view(batch, c_);
     const auto G_p = view(batch, shear_);
+    const Mask alone = Pack(batch.energy_share) > Pack(0.0);  // else the ledger keeps e
     for (int g = 0; g < batch.groups; ++g) {
-      Mat3<Pack> F = load_mat3(F_p, g);
-      if constexpr (updates_F) {
-        F = advance_deformation(load_mat3(dtL_p, g), F);
-        store_mat3(F_p, g, F);
-      }
+      const Mat3<Pack> F = load_mat3(F_p, g);
       const Pack averaged = law_.rho0 / (rho_p(g) * det(F));
       const auto response = law_(exp(1.0 / 3.0 * log(averaged)) * F);
       store_sym3(view(batch, s_), g, response.s);
       p_p.set(g, response.pressure);
-      e_p.set(g, response.energy);
+      e_p.set(g, select(alone, response.energy, e_p(g)));
       const Pack c_squared = response.modulus / rho_p(g);
       const Pack floor = Pack(0.01 * c0_squared_);
       const Mask floored = c_squared < floor;
@@ -65,9 +58,8 @@ class HyperelasticStage final : public Stage {
  private:
   Law law_;
   double c0_squared_;
-  State<field::DeformationGradient> F_;
+  Input<field::DeformationGradient> F_;
   Input<field::Density> rho_;
-  LocalInput<field::StepGradient> dtL_;
   State<field::DeviatoricStress> s_;
   State<field::Pressure> p_;
   State<field::InternalEnergy> e_;

@@ -130,6 +130,23 @@ class PlasticReturnStage final : public FlowingStage<Law> {
   }
 };
 
+/// A law that never yields, for brittle damage: q~ is that of the trial.
+class ElasticReturnStage final : public Stage {
+ public:
+  explicit ElasticReturnStage(Layout& layout)
+      : effective_{layout.local_input<field::EffectiveDeviator>("elastic")},
+        q_{layout.local_output<field::EquivalentStress>("elastic")} {}
+
+  void apply(const BatchData& batch) const override {
+    for (int g = 0; g < batch.groups; ++g)
+      view(batch, q_).set(g, equivalent_stress(load_sym3(view(batch, effective_), g)));
+  }
+
+ private:
+  LocalInput<field::EffectiveDeviator> effective_;
+  LocalOutput<field::EquivalentStress> q_;
+};
+
 /// `coupling: rate`: returns/rate_return.hpp.
 template <class Law>
 class RateReturnStage final : public FlowingStage<Law> {

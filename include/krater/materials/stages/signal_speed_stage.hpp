@@ -13,9 +13,9 @@ namespace krater::inline KRATER_ISA {
 
 template <class Real>
 KRATER_FORCE_INLINE Real signal_speed(Real c, Real G, Real v, Real tr_D, double q_lin,
-                                      double q_quad, double length) {
+                                      double q_quad, Real length) {
   const Real closing = max(Real(0.0), -tr_D);
-  const Real viscous = fma(Real(2.0 * q_quad * length), closing, q_lin * c);
+  const Real viscous = fma((2.0 * q_quad) * length, closing, q_lin * c);
   const Real Qv = select(tr_D < Real(0.0), viscous, Real(0.0));
   const Real c_L_squared = fma(c, c, (4.0 / 3.0) * G * v);
   return Qv + sqrt(fma(Qv, Qv, c_L_squared));
@@ -44,13 +44,13 @@ class SignalSpeedStage final : public Stage {
     const auto G_p = view(batch, shear_);
     const auto trD_p = view(batch, rate_);
     const auto signal_p = view(batch, signal_);
+    const ReadView length = lengths(batch);
     for (int g = 0; g < batch.groups; ++g) {
       const Sym3<Pack> s = load_sym3(s_p, g);
       const Pack c = c_p(g);
       const Pack state =
           ((p_p(g) + e_p(g)) + c) + (((s.xx + s.yy) + s.zz) + ((s.yz + s.xz) + s.xy));
-      const Pack signal =
-          signal_speed(c, G_p(g), v_p(g, 1), trD_p(g), q_lin_, q_quad_, batch.length);
+      const Pack signal = signal_speed(c, G_p(g), v_p(g, 1), trD_p(g), q_lin_, q_quad_, length(g));
       signal_p.set(g, signal);
       report(batch, FaultKind::not_finite_state, g, !is_finite(state + signal));
     }

@@ -30,8 +30,9 @@ class ViscosityStage final : public Stage {
     const auto v_p = view(batch, volumes_);
     const auto trD_p = view(batch, rate_);
     const auto w_p = view(batch, work_);
+    const ReadView length = lengths(batch);
     for (int g = 0; g < batch.groups; ++g) {
-      const Pack q = law_(rho_p(g), c_p(g), trD_p(g), batch.length);
+      const Pack q = law_(rho_p(g), c_p(g), trD_p(g), length(g));
       const Pack work = -0.5 * (q_p(g) + q) * (v_p(g, 1) - v_p(g, 0));
       q_p.set(g, q);
       w_p.set(g, w_p(g) + work);

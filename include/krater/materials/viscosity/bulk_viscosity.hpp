@@ -28,10 +28,10 @@ struct BulkViscosity {
   void prepare(const MaterialConstants&) {}
 
   template <class Real>
-  KRATER_FORCE_INLINE Real operator()(Real rho, Real c, Real tr_D, double length) const {
+  KRATER_FORCE_INLINE Real operator()(Real rho, Real c, Real tr_D, Real length) const {
     // -tr D where it is negative; max(0, x) keeps a NaN.
     const Real closing = max(Real(0.0), -tr_D);
-    return rho * length * closing * fma(Real(q_quad * length), closing, q_lin * c);
+    return rho * length * closing * fma(q_quad * length, closing, q_lin * c);
   }
 };
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/contact/impulse_heat.hpp"
+
+#include "krater/grid/blocks.hpp"
+
+namespace krater {
+
+double ImpulseHeat::book() const {
+  constexpr int velocity = 0, change = 4;  // [v+, m, dv, k]
+  double sum = 0;
+  std::size_t first = 0;
+  for (const Loss& loss : losses_) {
+    double heat = loss.outside, mass = 0;
+    for (std::size_t i = first; i < loss.end; ++i) {
+      const Pushed& p = pushed_[i];
+      mass += p.mass;
+      for (std::size_t a = 0; a < 3; ++a)
+        heat -= p.mass * (p.node[velocity + a] - 0.5 * p.node[change + a]) * p.change[a];
+    }
+    if (mass > 0)
+      for (std::size_t i = first; i < loss.end; ++i) pushed_[i].node[kNodeWork] += heat / mass;
+    first = loss.end;
+    sum += heat;
+  }
+  return sum;
+}
+
+}  // namespace krater
