@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace krater {
 
@@ -34,15 +35,19 @@ void set_velocity(double* node, int axis, double value) {
   node[kVelocity + axis] = value;
 }
 
-/// Coulomb: tangential velocities slow down by mu J_n, at most to rest.
-void slow_down(double* node, int normal, double impulse_over_mass) {
-  double slip = 0;
-  for (int b = 0; b < 3; ++b)
-    if (b != normal) slip += node[b] * node[b];
-  slip = std::sqrt(slip);
-  const double loss = slip > 0 ? std::min(1.0, impulse_over_mass / slip) : 0.0;
+/// Coulomb: tangential velocities slow down by mu J_n, at most to those of the plane.
+void slow_down(double* node, int normal, const Triple& plane, double impulse_over_mass) {
+  std::array<double, 3> slip{};
+  double square = 0;
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<unsigned>(a);
+    if (a != normal) slip[k] = node[a] - plane[k];
+    square += slip[k] * slip[k];
+  }
+  const double speed = std::sqrt(square);
+  const double loss = speed > 0 ? std::min(1.0, impulse_over_mass / speed) : 0.0;
   for (int a = 0; a < 3; ++a)
-    if (a != normal) set_velocity(node, a, node[a] * (1 - loss));
+    if (a != normal) set_velocity(node, a, node[a] - loss * slip[static_cast<unsigned>(a)]);
 }
 
 }  // namespace
@@ -105,6 +110,7 @@ void BoundarySet::relink(BlockGrid& grid) {
       plane.condition = &condition;
       place(plane);
       add_columns(grid, plane);
+      if (condition.pushes()) link_columns(plane);
     }
   list_held_nodes();
 }
@@ -132,12 +138,29 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
       const auto node = [&](const std::array<int, 3>& at) {
         return grid.find_node(at, block.field);
       };
-      const Column column{node(ghost), node(index), node(inner), !rigid, {}, 0, {}};
+      Column column{node(ghost), node(index), node(inner), !rigid, {}, 0, {}, {}, {}, {}};
       if (column.ghost == nullptr || column.inner == nullptr) continue;
+      for (int a = 0, side = 0; a < dimension; ++a)
+        for (const int step : {-1, 1}) {
+          if (a == plane.axis) continue;
+          std::array<int, 3> next = index;
+          next[static_cast<unsigned>(a)] += step;
+          column.beside[static_cast<unsigned>(side++)] = node(next);
+        }
       plane.columns.push_back(column);
       block.at_wall = block.at_wall || plane.condition->kind == BoundaryKind::wall;
     }
   }
+}
+
+void BoundarySet::link_columns(Plane& plane) {
+  std::unordered_map<const double*, int> at;
+  for (const Column& c : plane.columns) at[c.plane] = static_cast<int>(at.size());
+  for (Column& c : plane.columns)
+    for (std::size_t k = 0; k < c.beside.size(); ++k) {
+      const auto found = at.find(c.beside[k]);
+      c.columns_beside[k] = found == at.end() ? -1 : found->second;
+    }
 }
 
 void BoundarySet::list_held_nodes() {
@@ -233,6 +256,8 @@ BoundaryWork BoundarySet::constrain() {
     std::copy_n(h.node, kNodeDoubles, h.before.begin());
     std::copy_n(h.node, 3, h.last.begin());
   }
+  for (Plane& plane : planes_)
+    if (plane.condition->pushes()) note_fills(plane);
   for (const Plane& plane : planes_)
     if (plane.condition->pushes())
       for (const Column& c : plane.columns)
@@ -247,6 +272,26 @@ BoundaryWork BoundarySet::constrain() {
     }
   }
   return sum;
+}
+
+/// Volumes at the plane's nodes and beside them, (1 2 1) along each axis of the plane. Material
+/// that has spread along the plane is a lattice of wide columns: single columns of nodes held 0.7
+/// and 1.4 of their due, and where they were let go the points beside were pressed through.
+void BoundarySet::note_fills(Plane& plane) {
+  for (Column& c : plane.columns) c.fill = {c.plane[kVolume], c.inner[kVolume] + c.ghost[kVolume]};
+  std::vector<std::array<double, 2>> raw(plane.columns.size());
+  for (std::size_t axis = 0; axis < 4; axis += 2) {
+    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = plane.columns[i].fill;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      Column& c = plane.columns[i];
+      for (std::size_t part = 0; part < 2; ++part) {
+        c.fill[part] = 2 * raw[i][part];
+        for (std::size_t side = axis; side < axis + 2; ++side)
+          if (c.columns_beside[side] >= 0)
+            c.fill[part] += raw[static_cast<std::size_t>(c.columns_beside[side])][part];
+      }
+    }
+  }
 }
 
 // A side works by its own velocity on what it pushes.
@@ -279,8 +324,7 @@ double BoundarySet::heat() {
 bool BoundarySet::touches(const Plane& plane, const Column& c) const {
   if (fixed_reference_) return c.gap <= kGapTolerance * geometry_.h;
   const Fill whole = whole_fill(plane.beyond);
-  return c.plane[kVolume] * whole.rest >
-         (1 - kFillTolerance) * whole.plane * (c.inner[kVolume] + c.ghost[kVolume]);
+  return c.fill[0] * whole.rest > (1 - kFillTolerance) * whole.plane * c.fill[1];
 }
 
 /// False where the column moves on freely.
@@ -308,7 +352,7 @@ bool BoundarySet::hold(const Plane& plane, const Column& c) const {
 
   const double together = m_1 + m_g;
   for (int a = 0; a < 3; ++a) {
-    if (a != n && !condition.drives()) {  // even: the folded node's
+    if (a != n && !std::isinf(condition.friction)) {  // even: the folded node's
       if (!(together > 0)) continue;
       const double even = (m_1 * c.inner[a] + m_g * c.ghost[a]) / together;
       set_velocity(c.inner, a, even);
@@ -320,13 +364,13 @@ bool BoundarySet::hold(const Plane& plane, const Column& c) const {
     set_velocity(c.plane, a, v + c_0 * relative);
     set_velocity(c.inner, a, v + relative);
   }
-  if (condition.friction > 0) {
+  if (condition.friction > 0 && !std::isinf(condition.friction)) {
     const double both = std::max(0.0, push_plane) + std::max(0.0, push_rest);
     const double share = condition.friction * push / both;
-    slow_down(c.plane, n, share * std::max(0.0, push_plane) / m_0);
+    slow_down(c.plane, n, condition.velocity, share * std::max(0.0, push_plane) / m_0);
     if (together > 0) {
-      slow_down(c.inner, n, share * std::max(0.0, push_rest) / together);
-      slow_down(c.ghost, n, share * std::max(0.0, push_rest) / together);
+      slow_down(c.inner, n, condition.velocity, share * std::max(0.0, push_rest) / together);
+      slow_down(c.ghost, n, condition.velocity, share * std::max(0.0, push_rest) / together);
     }
   }
   c.inner[kNodeMass] = c.ghost[kNodeMass] = together;

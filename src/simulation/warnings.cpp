@@ -141,11 +141,11 @@ void watch(const Simulation& sim, Warnings& warnings) {
         "points_left", left, now,
         fmt::format("{:.0f} of {:.0f} points left the domain (grid.box) and were removed", left,
                     a.removed_points + static_cast<double>(sim.point_count())));
-  if (a.reflections > 0)
-    warnings.count("points_put_back", a.reflections, now,
-                   fmt::format("points were found beyond a closed side of the domain and put back "
-                               "{:.0f} times",
-                               a.reflections));
+  if (a.penetrations > 0)
+    warnings.count("points_put_back", a.penetrations, now,
+                   fmt::format("points went through a closed side of the domain, by up to {:.2g} "
+                               "cells, and were put back {:.0f} times",
+                               a.deepest_reflection, a.penetrations));
   if (a.sound_speed_floors > 0)
     warnings.count("sound_speed_floors", a.sound_speed_floors, now,
                    fmt::format("an equation of state gave no sound speed {:.0f} times (the density "

@@ -3,6 +3,7 @@
 // Sums over tiles, folds and means of the second node records; the sweeps over points and cells are
 // kernels.
 #include <algorithm>
+#include <array>
 
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
@@ -27,6 +28,26 @@ bool is_folded_ghost(const GridGeometry& g, const BoundaryConditions& conditions
     if (conditions[axis][index > 0 ? 1 : 0].folds()) return true;
   }
   return false;
+}
+
+/// By corner of a tile and node of the block there: where the node is in the tile, -1: not in it.
+using Overlaps = std::array<std::array<int, kBlockNodes>, 8>;
+Overlaps find_overlaps(int dimension) {
+  const int edge = block_edge(dimension), width = tile_edge(dimension);
+  Overlaps out{};
+  for (int corner = 0; corner < corner_count(dimension); ++corner)
+    for (int n = 0; n < kBlockNodes; ++n) {
+      int from = 0;
+      bool inside = true;
+      for (int a = 0, power = kBlockNodes / edge; a < dimension; ++a, power /= edge) {
+        const int at = n / power % edge + edge * corner_offset(corner, a);
+        inside = inside && at < width;
+        from = from * width + at;
+      }
+      out[static_cast<std::size_t>(corner)][static_cast<std::size_t>(n)] =
+          inside ? kNodeDoubles * from : -1;
+    }
+  return out;
 }
 
 }  // namespace
@@ -71,8 +92,7 @@ void MpmStep::sweep_fluids(PressurePart part, const SweepSettings& s) {
 
 // Slots [first, last) of the second records from the tiles, in their fixed order.
 void MpmStep::sum_fluid_tiles(int first, int last) {
-  const int dimension = grid_.geometry().dimension, edge = block_edge(dimension),
-            width = tile_edge(dimension);
+  const Overlaps overlaps = find_overlaps(grid_.geometry().dimension);
   for_each(fluid_blocks_.size(), [&](std::size_t i) {
     const NodeBlock& block = grid_.node_blocks()[fluid_blocks_[i]];
     double* nodes = second_record(block.nodes);
@@ -82,18 +102,11 @@ void MpmStep::sum_fluid_tiles(int first, int last) {
       const TileRef& ref = grid_.tile_refs()[static_cast<std::size_t>(t)];
       const Patch& patch = grid_.patches()[static_cast<std::size_t>(ref.patch)];
       if (!is_fluid(bodies_[static_cast<std::size_t>(patch.body)])) continue;
-      for (int n = 0; n < kBlockNodes; ++n) {
-        int from = 0;
-        bool overlaps = true;
-        for (int a = 0, power = kBlockNodes / edge; a < dimension; ++a, power /= edge) {
-          const int at = n / power % edge + edge * corner_offset(ref.corner, a);
-          overlaps = overlaps && at < width;
-          from = from * width + at;
-        }
-        if (!overlaps) continue;
-        for (int k = first; k < last; ++k)
-          nodes[kNodeDoubles * n + k] += patch.pressure_tile.data()[kNodeDoubles * from + k];
-      }
+      const double* tile = patch.pressure_tile.data();
+      const std::array<int, kBlockNodes>& overlap = overlaps[static_cast<std::size_t>(ref.corner)];
+      for (int n = 0; n < kBlockNodes; ++n)
+        if (const int from = overlap[static_cast<std::size_t>(n)]; from >= 0)
+          for (int k = first; k < last; ++k) nodes[kNodeDoubles * n + k] += tile[from + k];
     }
   });
 }

@@ -2,6 +2,7 @@
 #include "scene/readers/read_boundary.hpp"
 
 #include <array>
+#include <limits>
 
 namespace krater::scene {
 
@@ -26,6 +27,26 @@ constexpr std::array kKinds{
     Kind{"open", BoundaryKind::open, false},    Kind{"sticky", BoundaryKind::sticky, false},
     Kind{"wall", BoundaryKind::wall, false},    Kind{"velocity", BoundaryKind::velocity, false}};
 
+constexpr double kSticks = std::numeric_limits<double>::infinity();
+
+/// `[0, -10 m/s]`, which sticks, or `{of: [0, -10 m/s], friction: 0.1}`.
+void read_driven(const Node& node, const Choice& choice, Reading& reading, Boundary& boundary) {
+  boundary.friction = kSticks;
+  const Node* velocity = choice.value;
+  if (velocity && velocity->kind == Node::Kind::map) {
+    Block block{choice.value, node.path + "." + choice.name, node, reading.problems};
+    velocity = block.find("of");
+    if (block.find(kFriction.key)) boundary.friction = block.number(kFriction);
+    block.finish();
+  }
+  if (!velocity)
+    reading.problems.add(node.file, node.line, node.path,
+                         "expected {velocity: [radial or x, axial z]} or {velocity: {of: [radial "
+                         "or x, axial z], friction: 0}}");
+  else if (const auto read = read_vector(*velocity, "m/s", reading))
+    boundary.velocity = *read;
+}
+
 /// `open`, `{wall: {friction: 0.1}}` or `{velocity: [0, 10 m/s]}`.
 GivenBoundary read_side(const Node& node, Reading& reading) {
   GivenBoundary side;
@@ -46,12 +67,7 @@ GivenBoundary read_side(const Node& node, Reading& reading) {
   side.boundary.kind = kind->kind;
   side.is_axis = kind->is_axis;
   if (kind->kind == BoundaryKind::velocity) {
-    if (!choice->value) {
-      reading.problems.add(node.file, node.line, node.path,
-                           "expected {velocity: [radial or x, axial z]}");
-    } else if (const auto velocity = read_vector(*choice->value, "m/s", reading)) {
-      side.boundary.velocity = *velocity;
-    }
+    read_driven(node, *choice, reading, side.boundary);
   } else if (choice->value) {
     Block block{choice->value, node.path + "." + choice->name, node, reading.problems};
     if (kind->kind == BoundaryKind::wall) side.boundary.friction = block.number(kFriction);
@@ -194,9 +210,17 @@ Node side_node(const Boundary& boundary, bool is_axis, Frame frame) {
       add_member(node, "wall", options);
       return node;
     }
-    case BoundaryKind::velocity:
-      add_member(node, "velocity", vector_node(frame, boundary.velocity));
+    case BoundaryKind::velocity: {
+      Node velocity = vector_node(frame, boundary.velocity);
+      if (boundary.friction < kSticks) {
+        Node options;
+        add_member(options, "of", velocity);
+        add_member(options, kFriction.key, number_node(boundary.friction));
+        velocity = options;
+      }
+      add_member(node, "velocity", velocity);
       return node;
+    }
   }
   return node;
 }

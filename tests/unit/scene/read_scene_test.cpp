@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -200,13 +201,18 @@ TEST_SUITE("unit") {
     std::string text = replaced(small_scene(), "axisymmetric", "3d");
     text = replaced(text, "{min: [0, 0], max: [10 mm, 20 mm]}",
                     "{min: [0, 0, 0], max: [10 mm, 10 mm, 20 mm]}");
-    text = replaced(text, "r_min: axis",
-                    "x_min: symmetry\n    y_min: symmetry\n    y_max: {velocity: [1, -2, 3 m/s]}");
+    text =
+        replaced(text, "r_min: axis",
+                 "x_min: symmetry\n    y_min: symmetry\n    y_max: {velocity: [1, -2, 3 m/s]}\n    "
+                 "x_max: {velocity: {of: [-1 m/s, 0, 0], friction: 0.2}}");
     const Scene scene = read_scene(folder.write("quarter.yaml", text));
     CHECK(scene.grid.boundary[0][0].kind == BoundaryKind::symmetry);
     CHECK(scene.grid.boundary[1][0].kind == BoundaryKind::symmetry);
     CHECK(scene.grid.boundary[1][1].kind == BoundaryKind::velocity);
     CHECK(scene.grid.boundary[1][1].velocity == Triple{1, -2, 3});
+    CHECK(std::isinf(scene.grid.boundary[1][1].friction));  // sticks
+    CHECK(scene.grid.boundary[0][1].velocity == Triple{-1, 0, 0});
+    CHECK(scene.grid.boundary[0][1].friction == 0.2);
     check_fixed_point(scene, folder);
   }
 

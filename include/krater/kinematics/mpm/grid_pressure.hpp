@@ -78,44 +78,95 @@ constexpr int node_offset(int n) {
   return Dim == 3 ? (n / 9 * T + n / 3 % 3) * T + n % 3 : n / 3 * T + n % 3;
 }
 
-/// int over a cell: call f(weight, r, N, grad) for each of its Gauss points; weight [m^3], N and
-/// grad [Dim][node] of its nodes.
-template <class Frame, class Call>
-KRATER_FORCE_INLINE void for_gauss_points(const GridGeometry& grid, const PatchOrigin& origin,
-                                          const CellPlace<Frame::dim>& place, const Call& call) {
-  constexpr int D = Frame::dim, nodes = power_of_three<D>;
-  CellRule rule[D];
-  double volume = 1;
-  for (int a = 0; a < D; ++a) {
-    rule[a] = cell_rule(static_cast<int>(origin.first[a]) + place.i[a] + 1,
-                        grid.cells[static_cast<unsigned>(a)], grid.inv_h);
-    volume *= grid.h * rule[a].weight;
-  }
-  double N[nodes], grad[D][nodes];
-  for (int point = 0; point < (1 << D); ++point) {
-    double r = 1, weight = volume;
-    if constexpr (Frame::hoop) {
-      r = grid.min[0] + grid.h * (origin.first[0] + place.i[0] + rule[0].at[point & 1]);
-      weight *= 2 * std::numbers::pi * r;
+/// The 2^D Gauss points of a dual cell. Sums over its 3^D nodes go axis by axis: in space 57
+/// products a point and field become 14.
+template <class Frame>
+class GaussCell {
+ public:
+  static constexpr int D = Frame::dim, points = 1 << D;
+  double weight[points];  ///< [m^3]
+  double r[points];       ///< about the axis [m]
+
+  KRATER_FORCE_INLINE GaussCell(const GridGeometry& grid, const PatchOrigin& origin,
+                                const CellPlace<D>& place) {
+    double volume = 1;
+    for (int a = 0; a < D; ++a) {
+      rule_[a] = cell_rule(static_cast<int>(origin.first[a]) + place.i[a] + 1,
+                           grid.cells[static_cast<unsigned>(a)], grid.inv_h);
+      volume *= grid.h * rule_[a].weight;
     }
-    for (int n = 0; n < nodes; ++n) {
-      double value[D], slope[D];
-      for (int a = D - 1, rest = n; a >= 0; --a, rest /= 3) {
-        const int q = (point >> a) & 1;
-        value[a] = rule[a].N[q][rest % 3];
-        slope[a] = rule[a].d[q][rest % 3];
-      }
-      N[n] = 1;
-      for (int a = 0; a < D; ++a) {
-        N[n] *= value[a];
-        grad[a][n] = slope[a];
-        for (int b = 0; b < D; ++b)
-          if (b != a) grad[a][n] *= value[b];
+    for (int q = 0; q < points; ++q) {
+      weight[q] = volume;
+      r[q] = 1;
+      if constexpr (Frame::hoop) {
+        r[q] = grid.min[0] + grid.h * (origin.first[0] + place.i[0] + rule_[0].at[q >> (D - 1)]);
+        weight[q] *= 2 * std::numbers::pi * r[q];
       }
     }
-    call(weight, r, N, grad);
   }
-}
+  /// out[point] = sum of N over the nodes times a slot of theirs; along axis `slope` of dN/dx.
+  template <int slope = -1>
+  KRATER_FORCE_INLINE void to_points(const double* first_node, int slot, double* out) const {
+    double even[power_of_three<D>], odd[power_of_three<D>];
+    for (int n = 0; n < power_of_three<D>; ++n)
+      even[n] = first_node[kNodeDoubles * node_offset<D>(n) + slot];
+    if constexpr (D == 3) {
+      gather_axis<D - 1>(table<slope>(D - 1), even, odd);
+      gather_axis<1>(table<slope>(1), odd, even);
+      gather_axis<0>(table<slope>(0), even, out);
+    } else {
+      gather_axis<1>(table<slope>(1), even, odd);
+      gather_axis<0>(table<slope>(0), odd, out);
+    }
+  }
+  /// The adjoint: adds values of the points to a slot of the nodes.
+  template <int slope = -1>
+  KRATER_FORCE_INLINE void to_nodes(const double* values, double* first_node, int slot) const {
+    double even[power_of_three<D>], odd[power_of_three<D>];
+    scatter_axis<0>(table<slope>(0), values, even);
+    scatter_axis<1>(table<slope>(1), even, odd);
+    const double* sums = odd;
+    if constexpr (D == 3) {
+      scatter_axis<D - 1>(table<slope>(D - 1), odd, even);
+      sums = even;
+    }
+    for (int n = 0; n < power_of_three<D>; ++n)
+      first_node[kNodeDoubles * node_offset<D>(n) + slot] += sums[n];
+  }
+
+ private:
+  using Table = double[2][3];
+  template <int slope>
+  KRATER_FORCE_INLINE const Table& table(int axis) const {
+    return axis == slope ? rule_[axis].d : rule_[axis].N;
+  }
+  template <int axis>
+  static constexpr int outer = axis == 0 ? 1 : (axis == 1 ? 3 : 9);
+
+  template <int axis>
+  KRATER_FORCE_INLINE static void gather_axis(const Table& T, const double* in, double* out) {
+    constexpr int inner = points >> (axis + 1);
+    for (int o = 0; o < outer<axis>; ++o)
+      for (int q = 0; q < 2; ++q)
+        for (int i = 0; i < inner; ++i) {
+          const double* x = in + 3 * o * inner + i;
+          out[(2 * o + q) * inner + i] =
+              T[q][0] * x[0] + T[q][1] * x[inner] + T[q][2] * x[2 * inner];
+        }
+  }
+  template <int axis>
+  KRATER_FORCE_INLINE static void scatter_axis(const Table& T, const double* in, double* out) {
+    constexpr int inner = points >> (axis + 1);
+    for (int o = 0; o < outer<axis>; ++o)
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < inner; ++i) {
+          const double* x = in + 2 * o * inner + i;
+          out[(3 * o + k) * inner + i] = T[0][k] * x[0] + T[1][k] * x[inner];
+        }
+  }
+
+  CellRule rule_[D];
+};
 
 /// Volume that belongs to each node of a tile along one axis, in cells (about the axis [m]).
 template <class Frame>
@@ -261,22 +312,21 @@ void force_of_pressure(const PressureSweep<Frame, Shape>& sweep) {
     sweep.scatter(lw, channels);
   }
   sweep.for_cells([&](const CellPlace<D>& place, double part) {
-    for_gauss_points<Frame>(
-        *sweep.s.geometry, sweep.origin, place,
-        [&](double weight, double r, const double* N, const auto& grad) {
-          double P = 0, share = 0;
-          for (int n = 0; n < power_of_three<D>; ++n) {
-            const double* node = halo + kNodeDoubles * (place.tile + node_offset<D>(n));
-            P += N[n] * node[kNodePressure];
-            share += N[n] * node[kNodeShare];
-          }
-          const double push = part * weight * share * P;
-          for (int n = 0; n < power_of_three<D>; ++n) {
-            double* node = sweep.tile + kNodeDoubles * (place.tile + node_offset<D>(n));
-            for (int a = 0; a < D; ++a) node[kNodeForce + a] += push * grad[a][n];
-            if constexpr (Frame::hoop) node[kNodeForce] += push * N[n] / r;
-          }
-        });
+    using Cell = GaussCell<Frame>;
+    const Cell cell{*sweep.s.geometry, sweep.origin, place};
+    const double* node = halo + kNodeDoubles * place.tile;
+    double* out = sweep.tile + kNodeDoubles * place.tile;
+    double P[Cell::points], share[Cell::points], push[Cell::points];
+    cell.to_points(node, kNodePressure, P);
+    cell.to_points(node, kNodeShare, share);
+    for (int q = 0; q < Cell::points; ++q) push[q] = part * cell.weight[q] * share[q] * P[q];
+    cell.template to_nodes<0>(push, out, kNodeForce);
+    cell.template to_nodes<1>(push, out, kNodeForce + 1);
+    if constexpr (D == 3) cell.template to_nodes<2>(push, out, kNodeForce + 2);
+    if constexpr (Frame::hoop) {
+      for (int q = 0; q < Cell::points; ++q) push[q] /= cell.r[q];
+      cell.to_nodes(push, out, kNodeForce);
+    }
   });
 }
 
@@ -311,29 +361,40 @@ void sum_dilatation(const PressureSweep<Frame, Shape>& sweep) {
     sweep.scatter(lw, channels);
   }
   sweep.for_cells([&](const CellPlace<D>& place, double part) {
-    for_gauss_points<Frame>(*sweep.s.geometry, sweep.origin, place,
-                            [&](double weight, double r, const double* N, const auto& grad) {
-                              double div = 0, change = 0, share = 0;
-                              for (int n = 0; n < power_of_three<D>; ++n) {
-                                const int at = kNodeDoubles * (place.tile + node_offset<D>(n));
-                                for (int a = 0; a < D; ++a) {
-                                  div += grad[a][n] * halo[at + a];
-                                  change += grad[a][n] * halo[at + 4 + a];
-                                }
-                                if constexpr (Frame::hoop) {
-                                  div += N[n] * halo[at] / r;
-                                  change += N[n] * halo[at + 4] / r;
-                                }
-                                share += N[n] * shares[at + kNodeShare];
-                              }
-                              const double flux = part * weight * share;
-                              for (int n = 0; n < power_of_three<D>; ++n) {
-                                double* node =
-                                    sweep.tile + kNodeDoubles * (place.tile + node_offset<D>(n));
-                                node[kNodeDilatation] += N[n] * flux * div;
-                                node[kNodeWorkRate] += N[n] * flux * (div - 0.5 * change);
-                              }
-                            });
+    using Cell = GaussCell<Frame>;
+    const Cell cell{*sweep.s.geometry, sweep.origin, place};
+    const double* node = halo + kNodeDoubles * place.tile;
+    double* out = sweep.tile + kNodeDoubles * place.tile;
+    double term[Cell::points], share[Cell::points];
+    // div of the vector that begins at a slot of the nodes.
+    const auto divergence = [&](int slot, double* sum) {
+      const auto add = [&] {
+        for (int q = 0; q < Cell::points; ++q) sum[q] += term[q];
+      };
+      cell.template to_points<0>(node, slot, sum);
+      cell.template to_points<1>(node, slot + 1, term);
+      add();
+      if constexpr (D == 3) {
+        cell.template to_points<2>(node, slot + 2, term);
+        add();
+      }
+      if constexpr (Frame::hoop) {
+        cell.to_points(node, slot, term);
+        for (int q = 0; q < Cell::points; ++q) term[q] /= cell.r[q];
+        add();
+      }
+    };
+    double flux[Cell::points], work[Cell::points];
+    divergence(0, flux);
+    divergence(4, work);  // of dv
+    cell.to_points(shares + kNodeDoubles * place.tile, kNodeShare, share);
+    for (int q = 0; q < Cell::points; ++q) {
+      const double weight = part * cell.weight[q] * share[q];
+      work[q] = weight * (flux[q] - 0.5 * work[q]);
+      flux[q] *= weight;
+    }
+    cell.to_nodes(flux, out, kNodeDilatation);
+    cell.to_nodes(work, out, kNodeWorkRate);
   });
 }
 
