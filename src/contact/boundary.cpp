@@ -16,8 +16,8 @@ constexpr double kFillTolerance = 0.25;
 // Distance from the wall, in cells, at which a node of a fixed reference counts as touching.
 constexpr double kGapTolerance = 0.02;
 
-constexpr int kMass = 0, kMomentum = 1, kForce = 4, kVolume = 7;  // after the scatter
-constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;          // after the momentum update
+constexpr int kMass = 0, kMomentum = 1, kVolume = 7;      // after the scatter
+constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;  // after the momentum update
 
 double cube(double x) { return x * x * x; }
 
@@ -171,7 +171,7 @@ void BoundarySet::list_held_nodes() {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   held_.clear();
-  for (double* node : nodes) held_.push_back({node, {}, {}});
+  for (double* node : nodes) held_.push_back({node, {}, {}, 0});
   const auto place = [&nodes](double* node) {
     return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
                                     nodes.begin());
@@ -179,6 +179,14 @@ void BoundarySet::list_held_nodes() {
   for (Plane& plane : planes_)
     if (plane.condition->pushes())
       for (Column& c : plane.columns) c.held = {place(c.ghost), place(c.plane), place(c.inner)};
+  for (const Plane& plane : planes_)
+    if (plane.condition->folds())
+      for (const Column& c : plane.columns) {
+        const std::size_t i = place(c.plane);
+        if (i == nodes.size() || nodes[i] != c.plane) continue;
+        for (int a = 0; a < 3; ++a)
+          if (plane.odd(a)) held_[i].folded |= 1U << a;
+      }
 }
 
 void BoundarySet::note_gaps() {
@@ -197,56 +205,6 @@ bool BoundarySet::drives() const {
                      [](const Plane& p) { return p.condition->drives(); });
 }
 
-void BoundarySet::fold() {
-  for (Plane& plane : planes_) {
-    if (!plane.condition->folds()) continue;
-    for (Column& c : plane.columns) fold_column(plane, c);
-  }
-}
-
-void BoundarySet::fold_column(Plane& plane, Column& c) const {
-  c.folded.ghost_mass = c.ghost[kMass];
-  for (int a = 0; a < 3; ++a) {
-    const auto k = static_cast<unsigned>(a);
-    const bool odd = plane.odd(a);
-    const double sign = odd ? -1.0 : 1.0;
-    double &p = c.inner[kMomentum + a], &p_0 = c.plane[kMomentum + a],
-           &p_g = c.ghost[kMomentum + a];
-    if (odd) {
-      c.folded.ghost_momentum[k] = p_g;
-      c.folded.ghost_force[k] = c.ghost[kForce + a];
-      c.folded.plane_momentum[k] = p_0;
-      c.folded.plane_force[k] = c.plane[kForce + a];
-    }
-    p += sign * p_g;
-    c.inner[kForce + a] += sign * c.ghost[kForce + a];
-    if (odd) p_0 = c.plane[kForce + a] = 0;
-  }
-  c.inner[kMass] += c.ghost[kMass];
-  c.inner[kVolume] += c.ghost[kVolume];
-  std::fill(c.ghost, c.ghost + kNodeDoubles, 0.0);
-}
-
-BoundaryWork BoundarySet::folded(double dt, double alpha) const {
-  BoundaryWork sum;
-  for (const Plane& plane : planes_) {
-    if (!plane.condition->folds()) continue;
-    for (const Column& c : plane.columns) {
-      if (!c.moves_points) continue;
-      const Folded& f = c.folded;
-      for (int a = 0; a < 3; ++a) {
-        if (!plane.odd(a)) continue;
-        const auto k = static_cast<unsigned>(a);
-        const double change = c.inner[kChange + a], minus = c.inner[kVelocity + a] - change;
-        sum.impulse[k] -=
-            2 * (f.ghost_mass * change + dt * f.ghost_force[k]) + dt * f.plane_force[k] +
-            (1 - alpha) * (2 * (f.ghost_momentum[k] + f.ghost_mass * minus) + f.plane_momentum[k]);
-      }
-    }
-  }
-  return sum;
-}
-
 // Booked node by node with the masses of the points, after all planes: columns of two planes that
 // meet in a corner share nodes, and joined masses.
 BoundaryWork BoundarySet::constrain() {
@@ -261,7 +219,10 @@ BoundaryWork BoundarySet::constrain() {
   for (const Plane& plane : planes_)
     if (plane.condition->pushes())
       for (const Column& c : plane.columns)
-        if (hold(plane, c)) note_push(plane, c, sum);
+        if (hold(plane, c)) {
+          keep_folded(c);
+          note_push(plane, c, sum);
+        }
   if (sum.columns_in_contact == 0) return sum;
   for (const Held& h : held_) {
     const double m = h.before[kNodeMass];
@@ -291,6 +252,16 @@ void BoundarySet::note_fills(Plane& plane) {
             c.fill[part] += raw[static_cast<std::size_t>(c.columns_beside[side])][part];
       }
     }
+  }
+}
+
+// What a side that folds holds at rest, no other side moves: the forces there were folded away, and
+// their work with it.
+void BoundarySet::keep_folded(const Column& c) {
+  for (const std::size_t i : c.held) {
+    const Held& h = held_[i];
+    for (int a = 0; a < 3; ++a)
+      if ((h.folded >> a & 1U) != 0) set_velocity(h.node, a, h.before[static_cast<unsigned>(a)]);
   }
 }
 
@@ -376,21 +347,6 @@ bool BoundarySet::hold(const Plane& plane, const Column& c) const {
   c.inner[kNodeMass] = c.ghost[kNodeMass] = together;
   c.inner[kVolume] = c.ghost[kVolume] = c.inner[kVolume] + c.ghost[kVolume];
   return true;
-}
-
-void BoundarySet::mirror() const {
-  for (const Plane& plane : planes_) {
-    if (!plane.condition->folds()) continue;
-    for (const Column& c : plane.columns) {
-      for (int a = 0; a < 3; ++a) {
-        const double sign = plane.odd(a) ? -1.0 : 1.0;
-        c.ghost[kVelocity + a] = sign * c.inner[kVelocity + a];
-        c.ghost[kChange + a] = sign * c.inner[kChange + a];
-      }
-      c.ghost[kNodeMass] = c.inner[kNodeMass];
-      c.ghost[kVolume] = c.inner[kVolume];
-    }
-  }
 }
 
 }  // namespace krater

@@ -134,11 +134,13 @@ class BoundarySet {
     double* node;
     std::array<double, kNodeDoubles> before;
     std::array<double, 3> last;  ///< v+ before the plane under way
+    unsigned folded;             ///< bit per component that a plane that folds holds at rest
   };
   void place(Plane& plane) const;
   void add_columns(BlockGrid& grid, Plane& plane) const;
   static void link_columns(Plane& plane);
   void list_held_nodes();
+  void keep_folded(const Column& column);
   static void note_fills(Plane& plane);
   void fold_column(Plane& plane, Column& column) const;
   bool touches(const Plane& plane, const Column& column) const;

@@ -71,6 +71,7 @@ struct PatchResult {
   double internal = 0;                    ///< [J]
   double external_work = 0;               ///< [J] of body forces in the step
   double heat_given = 0, heat_taken = 0;  ///< [J] of the ledger, sums over cells with either sign
+  std::array<double, 3> cut_impulse{};    ///< [N s] of sides that fold, on the points of cut cells
   double carried = 0, carriers = 0;       ///< [J] owed by points, negative; cells that came short
   double stretch = 0;                     ///< fixed reference: largest |F^T F - I|
   Ledger ledger;

@@ -114,30 +114,6 @@ void MpmStep::move(double dt) {
   migrate();
 }
 
-// The new velocities, and L of the same v+, with the old weights. L of this projection would not
-// do: next to the residual that TFLIP keeps it would feed on itself.
-void MpmStep::project_again(double dt) {
-  particles_to_grid(kernels_, bodies_, dt);
-  momentum(dt, 0);
-  constrain(true);
-}
-
-// Stress first: the strain of the motion that the last step made, seen where it ended,
-// f = (I - dt L)^-1 with L of the velocities the points arrived with. Taken forwards instead, with
-// the map I + dt L of a motion still to come, a body that turns by w dt swells by 2 (w dt)^2 a
-// step.
-void MpmStep::strain_last_motion() {
-  double dt = last_step_;
-  last_step_ = 0;  // once, however often force() is asked
-  particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 0);
-  begin_rigid(dt, grid);
-  constrain(true);
-  grid_to_particles(GatherPart::strain_only, dt);
-  audit_.step_external = 0;
-  rigid_.rewind();
-}
-
 MpmStep::Constraints MpmStep::constrain(bool projection) {
   Constraints out;
   if (contact_.active()) out.contact = contact_.apply(grid_, columns_, rigid_, projection);
@@ -185,6 +161,14 @@ void MpmStep::account_folds(double dt) {
   for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += folds.impulse[a];
 }
 
+CutCells MpmStep::cut_cells(int axis, int side) const {
+  const auto a = static_cast<unsigned>(axis);
+  const Boundary& plane = boundary_.conditions()[a][static_cast<unsigned>(side)];
+  if (!plane.folds()) return {};
+  return {side == 0 ? 0 : grid_.geometry().cells[a],
+          plane.kind == BoundaryKind::sticky ? 7U : 1U << axis};
+}
+
 SweepSettings MpmStep::settings(double dt) const {
   SweepSettings s;
   s.geometry = &grid_.geometry();
@@ -197,6 +181,8 @@ SweepSettings MpmStep::settings(double dt) const {
   for (int a = 0; a < grid_.geometry().dimension; ++a) {
     s.first[static_cast<unsigned>(a)] = boundary_.last_storage(a, 0);
     s.last[static_cast<unsigned>(a)] = boundary_.last_storage(a, 1);
+    for (const int side : {0, 1})
+      s.cut[static_cast<unsigned>(a)][static_cast<unsigned>(side)] = cut_cells(a, side);
   }
   return s;
 }
@@ -356,6 +342,7 @@ void MpmStep::combine_patches(GatherPart part) {
     audit_.internal += r.internal;
     if (forces_worked) {
       audit_.step_external += r.external_work;
+      for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += r.cut_impulse[a];
       heat_.given += r.heat_given;
       heat_.taken += r.heat_taken;
       if (bodies_[static_cast<std::size_t>(grid_.patches()[p].body)].heat_floor == nullptr)

@@ -63,6 +63,7 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
   if (patch.tile.state == Tile::State::asleep) {
     removed_[p] = {};
     patch.result.heat_given = patch.result.heat_taken = patch.result.carriers = 0;
+    patch.result.cut_impulse = {};
     return;
   }
   const std::size_t size = patch.points.size();

@@ -189,7 +189,7 @@ def look_at_results(seed, out):
     least = 1e-12 * max(came_in[-1], 1e-300)
     check(np.all(np.maximum(energy, rows["kinetic_energy"]) <= 2 * came_in + least),
           f"seed {seed}: never twice the energy that came in", np.max(energy / np.maximum(came_in, 1e-300)))
-    through = abs(audit["transfer_in"]) + abs(audit["transfer_out"]) + abs(energy[-1]) + came_in[-1]
+    through = abs(audit["transfer_loss"]) + abs(audit["transfer_gain"]) + abs(energy[-1]) + came_in[-1]
     check(abs(audit["energy_residual"]) <= 1e-9 * through, f"seed {seed}: the ledger closes",
           f"{audit['energy_residual']} of {through}")
     told = [warning["kind"] for warning in summary(out)["warnings"]]

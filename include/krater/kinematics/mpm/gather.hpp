@@ -113,6 +113,7 @@ KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>
 /// Running sums of a patch, one per lane, folded once at the end.
 struct GatherSums {
   Pack kinetic = 0.0, internal = 0.0, external = 0.0;
+  double base[3] = {};  ///< velocity that the ledger counts from
 };
 
 template <GatherPart Part>

@@ -40,8 +40,8 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
   const PatchOrigin origin = origin_of<D>(patch);
   const GridGeometry& grid = *s.geometry;
   const CellLedger<D> ledger{w.cells + kCellLedger};
-  double
-      base[D];  // of the first point, where the ledger counts from; none where no cell has a mean
+  // The first point's; none where no cell has a mean.
+  double(&base)[3] = sums.base;
   for (int a = 0; a < D; ++a) base[a] = s.gamma > 0 ? get(view.velocity(0, a), 0) : 0;
   if constexpr (T::velocity) ledger.clear();
   LaneWeights<D> lw;
@@ -168,7 +168,7 @@ void settle(Patch& patch, const BodyKernelData& body, const SweepSettings& s, co
   using Cell = CellLedger<Dim>;
   const PointColumns& c = body.columns;
   const Cell ledger{w.cells + kCellLedger};
-  ledger.close(s.gamma, patch.result.heat_given, patch.result.heat_taken);
+  ledger.close(s, origin_of<Dim>(patch), sums.base, patch.result);
   const bool owes = c.carried >= 0, takes = owes && balance_heat<Dim>(patch, body, s, w);
   const WriteView carried{patch.points.data() + c.carried, c.stride};
   const ReadView heat{w.local + c.local_heat, c.local_stride};

@@ -33,6 +33,12 @@ inline std::vector<PointColumns> columns_of(const std::vector<BodyKernelData>& b
   return out;
 }
 
+/// A side that folds cuts the cells about its plane: what is beyond is the image of what is inside.
+struct CutCells {
+  int cell = -1;     ///< their index along the axis, storage numbering; -1: the side does not fold
+  unsigned odd = 0;  ///< bit per component that changes its sign in the image
+};
+
 /// What all blocks of a sweep share.
 struct SweepSettings {
   const GridGeometry* geometry = nullptr;
@@ -44,6 +50,7 @@ struct SweepSettings {
   bool average_cells = false;  ///< theory 18
   const double* pressure_nodes = nullptr;  ///< second records of all node blocks; none: no fluid
   std::array<double, 3> first{}, last{};   ///< where the domain ends, storage coordinates
+  std::array<std::array<CutCells, 2>, 3> cut{};  ///< [axis][0 lower, 1 upper]
 };
 
 struct MomentumSettings {

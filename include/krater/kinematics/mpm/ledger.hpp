@@ -60,21 +60,43 @@ struct CellLedger {
     for (int l = 0; l < kLanes; ++l) slots[l] = load(records + 8 * static_cast<int>(cells[l]));
     transpose8(slots);
   }
-  /// Means and heat per mass of all cells; heat given and taken goes to `loss` and `gain` [J].
-  void close(double gamma, double& loss, double& gain) const {
-    loss = gain = 0;
-    for (double* c = records; c < records + 8 * kBlockNodes; c += 8) {
+  /// Means and heat per mass of all cells. `base`: v_0.
+  void close(const SweepSettings& s, const PatchOrigin& origin, const double* base,
+             PatchResult& result) const {
+    result.heat_given = result.heat_taken = 0;
+    result.cut_impulse = {};
+    for (int i = 0; i < kBlockNodes; ++i) {
+      double* c = records + 8 * i;
       if (!(c[mass] > 0)) continue;
-      double across = 0, square = 0;
+      const unsigned odd = s.gamma > 0 ? odd_components(s, origin, i) : 0;
+      double across = 0;
       for (int a = 0; a < Dim; ++a) {
-        across += c[residual + a] * c[velocity + a];
-        square += c[residual + a] * c[residual + a];
-        c[residual + a] /= c[mass];
+        double& R = c[residual + a];
+        if ((odd >> a & 1U) != 0) {
+          across -= R * base[a];
+          result.cut_impulse[static_cast<unsigned>(a)] -= s.gamma * R;
+          R = 0;
+        } else {
+          R /= c[mass];
+          across += R * (c[velocity + a] - 0.5 * s.gamma * R * c[mass]);
+        }
       }
-      const double E = c[heat] - gamma * (across - 0.5 * gamma * square) / c[mass];
-      (E < 0 ? gain : loss) += E;
+      const double E = c[heat] - s.gamma * across;
+      (E < 0 ? result.heat_taken : result.heat_given) += E;
       c[heat] = E / c[mass];
     }
+  }
+
+ private:
+  /// Components of the velocity of cell `i` whose mean with its image beyond a side is zero.
+  static unsigned odd_components(const SweepSettings& s, const PatchOrigin& origin, int i) {
+    unsigned odd = 0;
+    for (int a = Dim - 1; a >= 0; --a, i /= block_edge(Dim)) {
+      const int cell = static_cast<int>(origin.first[a]) + i % block_edge(Dim);
+      for (const CutCells& side : s.cut[static_cast<unsigned>(a)])
+        if (side.cell == cell) odd |= side.odd;
+    }
+    return odd;
   }
 };
 

@@ -128,6 +128,7 @@ class MpmStep final : public Kinematics {
   void migrate();
   bool renew_references();
   void measure_gaps();
+  CutCells cut_cells(int axis, int side) const;
   SweepSettings settings(double dt) const;
   SweepScratch scratch();
 
