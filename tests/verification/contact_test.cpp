@@ -368,10 +368,10 @@ TEST_SUITE("verification") {
     for (NodeBlock& block : grid.node_blocks())
       for (int n = 0; n < kBlockNodes && block.field == 1; ++n)
         block.nodes[kNodeDoubles * n] -= 30, block.nodes[kNodeDoubles * n + 1] += 11;
-    for (NodeBlock& block : grid.node_blocks())  // the step left its work in place of the volumes
-      for (double* node = block.nodes; node < block.nodes + kNodeDoubles * kBlockNodes;
+    for (NodeBlock& block : grid.node_blocks())  // volumes again, where the step has left its work
+      for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
            node += kNodeDoubles)
-        node[7] = node[3] / kSteel.density;
+        node[kNodeWork] = node[3] / kSteel.density;
     ContactOptions options;
     options.active = true, options.fields = 2, options.friction.assign(4, 0.3);
     ContactSet contact{grid.geometry(), BoundaryConditions{}, false, false, options};

@@ -146,16 +146,13 @@ bool balance_heat(Patch& patch, const BodyKernelData& body, const SweepSettings&
     r[Cell::taken] = r[Cell::carried] = 0;
     r[Cell::heat] = due / r[Cell::mass];
     if (!(due < 0)) continue;
-    const double share = there > 0 ? std::min(1.0, -due / there) : 0, left = due + share * there;
+    const bool enough = there >= -due;
     r[Cell::heat] = 0;
-    r[Cell::taken] = share;
-    if (!(share < 1) && left < 0) {
-      r[Cell::carried] = left / r[Cell::mass];
-      patch.result.carried += left;
-      patch.result.carriers += 1;
-    } else {
-      r[Cell::heat] = left / r[Cell::mass];  // round-off
-    }
+    r[Cell::taken] = enough ? -due / there : there > 0 ? 1 : 0;
+    if (enough) continue;
+    r[Cell::carried] = (due + there) / r[Cell::mass];
+    patch.result.carried += due + there;
+    patch.result.carriers += 1;
   }
   return takes;
 }
