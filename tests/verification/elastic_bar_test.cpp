@@ -104,20 +104,27 @@ TEST_SUITE("verification") {
     CHECK(std::abs(run.sim->audit().error_fraction()) < 0.01);
   }
 
+  // The filter of TFLIP works on cells of one body: half a cell of each bar, where the plane sees a
+  // whole one. Without it the two are the same; with it they differ by what it takes, 1 - alpha.
   TEST_CASE("two equal bars meet as one bar meets a plane of symmetry") {
-    Run one = start_text(strip(60, 0, "symmetry", bar("bar", 0, 1, "-1"), true));
-    Run two = start_text(
-        strip(60, -1.2, "open", bar("upper", 0, 1, "-1") + bar("lower", -1, 0, "1"), true));
-    const double end = 0.9 / kWaveSpeed;
-    run_to(one, end), run_to(two, end);
-    const auto p1 = column(one, field::Pressure::info), p2 = column(two, field::Pressure::info);
-    REQUIRE(p1.size() == p2.size());
-    double worst = 0;
-    for (std::size_t i = 0; i < p1.size(); ++i) worst = std::max(worst, std::abs(p1[i] - p2[i]));
-    worst /= kDensity * kWaveSpeed * kSpeed;
-    MESSAGE("largest difference of pressure / (rho c v): " << worst);
-    CHECK(worst < 1e-9);
-    CHECK(one.sim->steps() == two.sim->steps());
+    for (const bool filtered : {false, true}) {
+      CAPTURE(filtered);
+      const Overrides method = filtered ? Overrides{} : Overrides{"method.flip_fraction=1"};
+      Run one = start_text(strip(60, 0, "symmetry", bar("bar", 0, 1, "-1"), true), method);
+      Run two = start_text(
+          strip(60, -1.2, "open", bar("upper", 0, 1, "-1") + bar("lower", -1, 0, "1"), true),
+          method);
+      const double end = 0.9 / kWaveSpeed;
+      run_to(one, end), run_to(two, end);
+      const auto p1 = column(one, field::Pressure::info), p2 = column(two, field::Pressure::info);
+      REQUIRE(p1.size() == p2.size());
+      double worst = 0;
+      for (std::size_t i = 0; i < p1.size(); ++i) worst = std::max(worst, std::abs(p1[i] - p2[i]));
+      worst /= kDensity * kWaveSpeed * kSpeed;
+      MESSAGE("largest difference of pressure / (rho c v): " << worst);
+      CHECK(worst < (filtered ? 1e-2 : 1e-9));
+      CHECK(one.sim->steps() == two.sim->steps());
+    }
   }
 
   TEST_CASE("elastic bar rebounds from a unilateral wall at 2 L/c with restitution 1") {
