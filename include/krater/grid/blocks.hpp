@@ -132,8 +132,8 @@ struct TileRef {
 
 /// Sums of one node block, combined in block order.
 struct NodeSums {
-  double kinetic_before = 0, kinetic_after = 0;  ///< 1/2 sum m |v^-|^2, 1/2 sum m |v^+|^2 [J]
-  double max_change = 0;                         ///< max |dv| over nodes that hold material [m/s]
+  double kinetic = 0;     ///< 1/2 sum m |v^+|^2 [J]
+  double max_change = 0;  ///< max |dv| over nodes that hold material [m/s]
 };
 
 struct NodeBlock {

@@ -61,11 +61,6 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
   node_settings_.cell_volume = std::pow(grid_.geometry().h, grid_.geometry().dimension);
 }
 
-PointSet MpmStep::set(int s) const {
-  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
-  return {patch.body, &patch.points};
-}
-
 PointStore& MpmStep::change(int s) {
   Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
   patch.touch();
@@ -77,8 +72,8 @@ double MpmStep::force(double dt) {
   if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
-  grid_energy_ = momentum(dt, 1);            // v- = p/m, v+ = v- + dt f/m
-  begin_rigid(dt, grid_energy_);
+  grid_kinetic_ = momentum(dt, 1);           // v- = p/m, v+ = v- + dt f/m
+  begin_rigid(dt, grid_kinetic_);
   return dt;
 }
 
@@ -128,7 +123,7 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
 void MpmStep::watch_energy() const {
   const Constraints& c = constraints_;
   if (loaded_) return;
-  energy_watch_.check_nodes(audit_, grid_energy_.after + c.change(),
+  energy_watch_.check_nodes(audit_, grid_kinetic_ + c.change(),
                             {audit_.step_external + c.contact.driven, c.walls.work});
 }
 
@@ -235,7 +230,7 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   throw_faults();
 }
 
-MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
+double MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
   const bool fluids = !fluid_patches_.empty();
@@ -262,13 +257,12 @@ MpmStep::GridEnergy MpmStep::momentum(double& dt, double force_share) {
   if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
     halve_until_safe(dt, max_change);
   lap(Phase::boundary);
-  GridEnergy energy{rigid_.kinetic(), rigid_.kinetic()};
+  double kinetic = rigid_.kinetic();
   for (const NodeBlock& block : grid_.node_blocks()) {
     if (rigid_.any() && rigid_.find(block.field)) continue;
-    energy.before += block.sums.kinetic_before;
-    energy.after += block.sums.kinetic_after;
+    kinetic += block.sums.kinetic;
   }
-  return energy;
+  return kinetic;
 }
 
 void MpmStep::halve_until_safe(double& dt, double max_change) {
@@ -277,7 +271,7 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
   dt *= share;
   audit_.retries += 1;
   for (NodeBlock& block : grid_.node_blocks()) {
-    block.sums.kinetic_after = 0;
+    block.sums.kinetic = 0;
     for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
          node += kNodeDoubles) {
       double speed2 = 0;
@@ -286,7 +280,7 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
         node[4 + a] *= share;
         speed2 += node[a] * node[a];
       }
-      block.sums.kinetic_after += 0.5 * node[3] * speed2;
+      block.sums.kinetic += 0.5 * node[3] * speed2;
     }
   }
 }

@@ -6,10 +6,10 @@ namespace krater {
 
 // Loads and drives act on rigid bodies when the length of the step is settled; their work is
 // external.
-void MpmStep::begin_rigid(double dt, GridEnergy& energy) {
+void MpmStep::begin_rigid(double dt, double& kinetic) {
   if (!rigid_.any()) return;
   const double work = rigid_.begin(dt);
-  energy.after += work;
+  kinetic += work;
   audit_.step_external += work;
 }
 

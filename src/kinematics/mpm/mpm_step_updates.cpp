@@ -20,8 +20,8 @@ void MpmStep::strain_last_motion() {
   double dt = last_step_;
   last_step_ = 0;  // once, however often force() is asked
   particles_to_grid(kernels_, bodies_, dt);
-  GridEnergy grid = momentum(dt, 0);
-  begin_rigid(dt, grid);
+  double kinetic = momentum(dt, 0);
+  begin_rigid(dt, kinetic);
   constrain(true);
   grid_to_particles(GatherPart::strain_only, dt);
   audit_.step_external = 0;

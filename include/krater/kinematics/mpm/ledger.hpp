@@ -15,7 +15,9 @@
 /// As sum_i f_i . vbar_i dt = - sum_p W (the same V, sigma and grad S) and sum_p m_p S_ip = m_i,
 ///   d(kinetic + internal) = work from outside,
 /// to round-off, for any motion. The filter takes no momentum from a cell, so E_c is the same for
-/// every observer. What is dropped from a stress (failure, spall, damage) is not returned as work
+/// every observer; a cell that a folding side cuts is one with its image, where <r> and <v1> of odd
+/// components are zero, and the side takes the momentum.
+/// What is dropped from a stress (failure, spall, damage) is not returned as work
 /// and stays in e. Energies are differences of large squares: n is formed from Ds, not from
 /// |v'|^2 - |v|^2, and velocities are taken from that of the patch's first point.
 /// With cell averages (1 - b) p + b P_c is scattered; W then has the trace (1 - b) tr + b tr_c,

@@ -63,7 +63,11 @@ class MpmStep final : public Kinematics {
   const TimeStepLimit& limit() const override { return limit_; }
 
   int set_count() const override { return static_cast<int>(grid_.patches().size()); }
-  PointSet set(int s) const override;
+  /// Inline: output asks for every component of every point.
+  PointSet set(int s) const override {
+    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+    return {patch.body, &patch.points};
+  }
   PointStore& change(int s) override;
 
   /// Wall-clock seconds spent in a phase since construction.
@@ -78,13 +82,11 @@ class MpmStep final : public Kinematics {
   void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 
  private:
-  struct GridEnergy {
-    double before, after;
-  };
   void particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                          double dt);
   /// Forces act over `force_share` dt; dt is halved while dv alone would move material too far.
-  GridEnergy momentum(double& dt, double force_share);
+  /// Returns 1/2 sum m |v+|^2 of the nodes and of rigid bodies [J].
+  double momentum(double& dt, double force_share);
   struct Constraints {
     BoundaryWork walls;
     ContactWork contact;
@@ -92,7 +94,7 @@ class MpmStep final : public Kinematics {
   };
   /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
   Constraints constrain(bool projection = false);
-  void begin_rigid(double dt, GridEnergy& energy);
+  void begin_rigid(double dt, double& kinetic);
   void finish_rigid(double dt);
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
@@ -150,7 +152,7 @@ class MpmStep final : public Kinematics {
 
   Audit& audit_;
   EnergyWatch energy_watch_;
-  GridEnergy grid_energy_{};  ///< of the step under way, as are the next two
+  double grid_kinetic_ = 0;  ///< of the step under way, as are the next two
   Constraints constraints_;
   bool loaded_;  ///< body forces act
   Audit::StepHeat heat_;

@@ -49,7 +49,7 @@ inline constexpr double kFilledNode = 0.01;
 /// it by the support of the shape functions in every step, at amplitudes without meaning, and would
 /// wake every dormant block.
 KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& s) {
-  Pack before = 0.0, after = 0.0, change = 0.0;
+  Pack after = 0.0, change = 0.0;
   const Pack flush = s.flush_velocity * s.flush_velocity;
   Mask moving = Pack(0.0) > Pack(0.0), loaded = moving;
   for (int first = 0; first < kBlockNodes; first += kLanes) {
@@ -76,13 +76,11 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& 
       out[a] = select(still, Pack(0.0), out[a]);
       out[4 + a] = select(still, Pack(0.0), out[4 + a]);
     }
-    old2 = select(still, Pack(0.0), old2);
     new2 = select(still, Pack(0.0), new2);
     moving = moving | !still;
     for (int c = 1; c < 7; ++c) loaded = loaded | (n[c] != Pack(0.0));
     out[3] = m;
     out[7] = V;
-    before = fma(m, old2, before);
     after = fma(m, new2, after);
     change = max(change, select(V > Pack(kFilledNode * s.cell_volume), dv2, Pack(0.0)));
     transpose8(out);
@@ -90,7 +88,7 @@ KRATER_FORCE_INLINE void update_block(NodeBlock& block, const MomentumSettings& 
   }
   block.still = none(moving);
   block.inert = block.still && none(loaded);
-  block.sums = {0.5 * sum(before), 0.5 * sum(after), hmax(sqrt(change))};
+  block.sums = {0.5 * sum(after), hmax(sqrt(change))};
 }
 
 /// k = (v- + dv/2) . dv in place of the volume, from the final v+ (kinematics/mpm/ledger.hpp).
