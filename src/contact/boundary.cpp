@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "contact/boundary_slots.hpp"
+
 namespace krater {
 
 namespace {
@@ -15,9 +17,6 @@ constexpr double kFillTolerance = 0.25;
 
 // Distance from the wall, in cells, at which a node of a fixed reference counts as touching.
 constexpr double kGapTolerance = 0.02;
-
-constexpr int kMass = 0, kMomentum = 1, kVolume = 7;      // after the scatter
-constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;  // after the momentum update
 
 double cube(double x) { return x * x * x; }
 

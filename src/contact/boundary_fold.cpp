@@ -2,16 +2,10 @@
 // Planes that fold.
 #include <algorithm>
 
+#include "contact/boundary_slots.hpp"
 #include "krater/contact/boundary.hpp"
 
 namespace krater {
-
-namespace {
-
-constexpr int kMass = 0, kMomentum = 1, kForce = 4, kVolume = 7;  // after the scatter
-constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;          // after the momentum update
-
-}  // namespace
 
 void BoundarySet::fold() {
   for (Plane& plane : planes_) {
