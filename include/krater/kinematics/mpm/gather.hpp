@@ -20,7 +20,7 @@ namespace krater::inline KRATER_ISA {
 struct GatherViews {
   WriteView position, velocity, affine, kept, map, half_width, domain;
   ReadView grid_position, mass, density, body_acceleration, sound_speed, failed;
-  ReadView old_affine, stress, pressure, viscous;
+  ReadView old_affine, stress, pressure, viscous, carried;
   WriteView energy, indicator;
   WriteView step_gradient, extra_dilatation;
   ReadView signal;
@@ -47,6 +47,7 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
           read(c.stress),
           read(c.pressure),
           read(c.viscous),
+          read(c.carried),
           write(c.energy),
           write(c.indicator),
           WriteView{w.local + c.local_gradient, c.local_stride},
@@ -113,7 +114,8 @@ KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>
 /// Running sums of a patch, one per lane, folded once at the end.
 struct GatherSums {
   Pack kinetic = 0.0, internal = 0.0, external = 0.0;
-  double base[3] = {};  ///< velocity that the ledger counts from
+  double base[3] = {};         ///< velocity that the ledger counts from
+  Mask owes = first_lanes(0);  ///< some point carries a debt
 };
 
 template <GatherPart Part>

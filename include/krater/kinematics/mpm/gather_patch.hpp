@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file kinematics/mpm/gather_patch.hpp
-/// The two passes of the gather over one patch: first all velocity gradients (the cell averages
-/// need them), then the constitutive stages on runs of a few lane groups, so that their local
-/// records stay in the first-level cache.
+/// The two passes of the gather over one patch: first all velocity gradients (the means of the
+/// cells need them), then what the cells give back and the constitutive stages, on runs of a few
+/// lane groups, so that their records stay in the first-level cache.
 #include "krater/kinematics/mpm/grid_pressure.hpp"
 #include "krater/materials/batch_access.hpp"
 
@@ -30,20 +30,45 @@ KRATER_FORCE_INLINE void note_velocity_fault(Patch& patch, const PointSums<Dim>&
     patch.result.fault = {FaultKind::not_finite_velocity, g, bad};
 }
 
+/// What both passes over a patch share.
+struct GatherPass {
+  Patch& patch;
+  const BodyKernelData& body;
+  const SweepSettings& s;
+  const SweepScratch& w;
+  GatherViews view;
+  CellSums cells;
+  GatherSums sums{};
+  bool takes = false;  ///< heat is taken from points of some cell
+};
+
+/// New velocities of 8 points, their records in the ledger, and the work of body forces.
+template <int Dim, bool Affine>
+KRATER_FORCE_INLINE void book_motion(GatherPass& pass, const PointSums<Dim>& n,
+                                     LaneWeights<Dim>& lw, Mask silent, int g) {
+  auto& [patch, body, s, w, view, cells, sums, takes] = pass;
+  Pack slots[8], loss = n.V[kNodeWork];
+  if (s.moments) loss -= shared_motion<Dim, Affine>(view, n, w.halo, lw, g);
+  update_velocity<Dim, Affine>(view, n, s, sums.base, silent, loss, g, slots);
+  CellLedger<Dim>{w.cells + kCellLedger}.add(w.pressures + kLanes * g, slots);
+  for (int a = 0; a < Dim; ++a)
+    sums.external = fma(view.mass(g) * view.body_acceleration(g, a),
+                        fnma(Pack(0.5), n.V[4 + a], n.V[a]), sums.external);
+}
+
 /// First pass: nodes -> points.
 template <class Frame, class Shape, bool Affine, class Configuration, GatherPart Part>
-void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
-                  const GatherViews& view, const CellSums& cells, GatherSums& sums) {
+void gather_nodes(GatherPass& pass) {
   constexpr int D = Frame::dim;
+  auto& [patch, body, s, w, view, cells, sums, takes] = pass;
   const int stride = view.mass.stride;
   using T = PartTraits<Part>;
   const PatchOrigin origin = origin_of<D>(patch);
   const GridGeometry& grid = *s.geometry;
-  const CellLedger<D> ledger{w.cells + kCellLedger};
   // The first point's; none where no cell has a mean.
   double(&base)[3] = sums.base;
   for (int a = 0; a < D; ++a) base[a] = s.gamma > 0 ? get(view.velocity(0, a), 0) : 0;
-  if constexpr (T::velocity) ledger.clear();
+  if constexpr (T::velocity) CellLedger<D>{w.cells + kCellLedger}.clear();
   LaneWeights<D> lw;
   PointSums<D> n;
   for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
@@ -57,8 +82,10 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     const Alone alone = alone_points<D>(view, n, lw, g);
 
     note_velocity_fault<D>(patch, n, g);
-    if constexpr (T::velocity)
+    if constexpr (T::velocity) {
       book_work<Frame, Configuration>(view, n, s, patch.beta.data(), cell, cells, g);
+      sums.owes = sums.owes | (view.carried(g) < Pack(0.0));
+    }
     if constexpr (T::strain) {
       const Pack trace =
           store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s.dt, g);
@@ -70,17 +97,7 @@ void gather_nodes(Patch& patch, const SweepSettings& s, const SweepScratch& w,
     if (s.average_cells) cells.add_volume(cell, view.mass(g) / view.density(g));
     Pack old[D];
     for (int a = 0; a < D; ++a) old[a] = view.velocity(g, a);
-    if constexpr (T::velocity) {
-      Pack slots[8];
-      Pack loss = n.V[kNodeWork];
-      if (s.moments) loss -= shared_motion<D, Affine>(view, n, w.halo, lw, g);
-      update_velocity<D, Affine>(view, n, s, base, alone.silent, loss, g, slots);
-      ledger.add(cell, slots);
-      const Pack m = view.mass(g);
-      for (int a = 0; a < D; ++a)
-        sums.external = fma(m * view.body_acceleration(g, a), fnma(Pack(0.5), n.V[4 + a], n.V[a]),
-                            sums.external);
-    }
+    if constexpr (T::velocity) book_motion<D, Affine>(pass, n, lw, alone.silent, g);
     if constexpr (T::velocity || T::move || T::keep)
       move_points<Frame, Configuration, Part>(view, n, old, s, g);
     if constexpr (T::last) {
@@ -117,29 +134,30 @@ KRATER_FORCE_INLINE BatchData batch_of(Patch& patch, const PointColumns& c, cons
 /// say what share of its own each point gives, and what it carries. False: nothing is taken.
 template <int Dim>
 bool balance_heat(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
-                  const SweepScratch& w) {
+                  const SweepScratch& w, bool owes) {
   using Cell = CellLedger<Dim>;
   const PointColumns& c = body.columns;
   double* records = w.cells + kCellLedger;
-  const WriteView carried{patch.points.data() + c.carried, c.stride};
+  const ReadView carried{patch.points.data() + c.carried, c.stride};
   const ReadView mass{patch.points.data() + c.mass, c.stride};
   for (int i = 0; i < kBlockNodes; ++i) {
     records[8 * i + Cell::taken] = 0;
     records[8 * i + Cell::carried] = 0;
   }
-  for (int g = 0; g < patch.points.groups(); ++g)
+  for (int g = 0; owes && g < patch.points.groups(); ++g)
     if (any(carried(g) < Pack(0.0)))
       add_slot(records, Cell::carried, w.pressures + kLanes * g, mass(g) * carried(g));
   bool takes = false;
   for (double* r = records; r < records + 8 * kBlockNodes; r += 8)
     takes = takes || r[Cell::heat] * r[Cell::mass] + r[Cell::carried] < 0;
+  patch.result.carried = patch.result.carriers = 0;
+  if (!takes && !owes) return false;
   if (takes) {
     body.heat_floor->apply(batch_of(patch, c, s, w, 0, patch.points.groups()));
     const ReadView heat{w.local + c.local_heat, c.local_stride};
     for (int g = 0; g < patch.points.groups(); ++g)
       add_slot(records, Cell::taken, w.pressures + kLanes * g, mass(g) * heat(g));
   }
-  patch.result.carried = patch.result.carriers = 0;
   for (double* r = records; r < records + 8 * kBlockNodes; r += 8) {
     if (!(r[Cell::mass] > 0)) continue;
     const double due = r[Cell::heat] * r[Cell::mass] + r[Cell::carried], there = r[Cell::taken];
@@ -157,20 +175,31 @@ bool balance_heat(Patch& patch, const BodyKernelData& body, const SweepSettings&
   return takes;
 }
 
-/// The means of the cells, when all points of the patch have been seen: velocities, heat, and what
-/// the mean dilatation adds to the work of the pressure.
+/// The means of all cells, when all points of the patch have been seen.
+template <int Dim, GatherPart Part>
+void close_cells(GatherPass& pass) {
+  using T = PartTraits<Part>;
+  auto& [patch, body, s, w, view, cells, sums, takes] = pass;
+  if constexpr (T::velocity) {
+    CellLedger<Dim>{w.cells + kCellLedger}.close(s, origin_of<Dim>(patch), sums.base, patch.result);
+    if (body.columns.carried >= 0)
+      takes = balance_heat<Dim>(patch, body, s, w, bits(sums.owes) != 0);
+    if (s.average_cells) cells.second().divide();
+  }
+  if (T::strain && s.average_cells) cells.divide();
+}
+
+/// What the means of the cells add to the points [first, last): velocities, heat, and what the mean
+/// dilatation adds to the work of the pressure.
 template <int Dim, bool Affine, GatherPart Part>
-void settle(Patch& patch, const BodyKernelData& body, const SweepSettings& s, const SweepScratch& w,
-            const GatherViews& view, const CellSums& cells, GatherSums& sums) {
+void settle(GatherPass& pass, int first, int last) {
   using Cell = CellLedger<Dim>;
+  auto& [patch, body, s, w, view, cells, sums, takes] = pass;
   const PointColumns& c = body.columns;
   const Cell ledger{w.cells + kCellLedger};
-  ledger.close(s, origin_of<Dim>(patch), sums.base, patch.result);
-  const bool owes = c.carried >= 0, takes = owes && balance_heat<Dim>(patch, body, s, w);
   const WriteView carried{patch.points.data() + c.carried, c.stride};
   const ReadView heat{w.local + c.local_heat, c.local_stride};
-  if (s.average_cells) cells.second().divide();
-  for (int g = 0; g < patch.points.groups(); ++g) {
+  for (int g = first; g < last; ++g) {
     const double* cell = w.pressures + kLanes * g;
     Pack slots[8];
     ledger.look_up(cell, slots);
@@ -183,7 +212,7 @@ void settle(Patch& patch, const BodyKernelData& body, const SweepSettings& s, co
       e = fnma(s.dt / view.density(g), (view.pressure(g) + view.viscous(g)) * share, e);
     }
     view.energy.set(g, e);
-    if (owes) {
+    if (c.carried >= 0) {
       carried.set(g, slots[Cell::carried]);
       e += slots[Cell::carried];
     }
@@ -191,19 +220,16 @@ void settle(Patch& patch, const BodyKernelData& body, const SweepSettings& s, co
     if constexpr (PartTraits<Part>::last)
       sum_kinetic<Dim, Affine>(view, 0.25 * s.geometry->h * s.geometry->h, g, sums);
   }
-  patch.result.internal = sum(sums.internal);
 }
 
-/// ExtraDilatation: tr L -> dt beta (tr_c - tr L).
-KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSettings& s,
-                                            const SweepScratch& w, const GatherViews& view,
-                                            const CellSums& cells) {
-  if (!s.average_cells) {
-    for (int g = 0; g < patch.points.groups(); ++g) view.extra_dilatation.set(g, Pack(0.0));
-    return;
-  }
-  cells.divide();
-  for (int g = 0; g < patch.points.groups(); ++g) {
+/// ExtraDilatation of the groups [first, last): tr L -> dt beta (tr_c - tr L).
+inline void average_dilatation(const GatherPass& pass, int first, int last) {
+  const auto& [patch, body, s, w, view, cells, sums, takes] = pass;
+  for (int g = first; g < last; ++g) {
+    if (!s.average_cells) {
+      view.extra_dilatation.set(g, Pack(0.0));
+      continue;
+    }
     const double* cell = w.pressures + kLanes * g;
     const Pack beta = look_up(patch.beta.data(), cell), mean = look_up(cells.value, cell);
     view.extra_dilatation.set(g, s.dt * (beta * (mean - view.extra_dilatation(g))));
@@ -212,32 +238,46 @@ KRATER_FORCE_INLINE void average_dilatation(const Patch& patch, const SweepSetti
 
 /// The volume of a fluid changes by what flows, det f + dt (tr_p - tr L): the extra dilatation a of
 /// det f (1 + a/2)/(1 - a/2).
-KRATER_FORCE_INLINE void add_correction(const Patch& patch, const PointColumns& c,
-                                        const SweepSettings& s, const SweepScratch& w,
-                                        const GatherViews& view) {
-  const ReadView correction{w.local + c.local_correction, c.local_stride};
-  for (int g = 0; g < patch.points.groups(); ++g) {
+inline void add_correction(const GatherPass& pass, int first, int last) {
+  const auto& [patch, body, s, w, view, cells, sums, takes] = pass;
+  const ReadView correction{w.local + body.columns.local_correction, body.columns.local_stride};
+  for (int g = first; g < last; ++g) {
     const Pack change = fma(Pack(s.dt), correction(g), view.extra_dilatation(g));
     const Pack j = det_minus_one(load_mat3(reading(view.step_gradient), g)) + 1.0;
     view.extra_dilatation.set(g, change / fma(Pack(0.5), change, j));
   }
 }
 
-/// Second pass: constitutive update.
+/// Constitutive update of the groups [first, last).
 template <int Dim, class Configuration>
-void run_stages(Patch& patch, const BodyKernelData& body, const SweepSettings& s,
-                const SweepScratch& w, const GatherViews& view) {
+void run_stages(GatherPass& pass, int first, int last) {
+  auto& [patch, body, s, w, view, cells, sums, takes] = pass;
   const PointColumns& c = body.columns;
-  const ReadView rate{w.local + c.local_rate, c.local_stride};
   alignas(64) double length[kLanes];
   store(length, Pack(s.geometry->h));
+  BatchData batch = batch_of(patch, c, s, w, first, last - first);
+  batch.length = length;
+  for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
+  after_stages<Dim, Configuration>(patch, view, s, first, last,
+                                   ReadView{w.local + c.local_rate, c.local_stride},
+                                   c.indicator >= 0);
+}
+
+/// Second pass: what cells add, then the material, run by run of a few lane groups.
+template <int Dim, bool Affine, class Configuration, GatherPart Part>
+void finish_points(GatherPass& pass) {
+  using T = PartTraits<Part>;
+  const Patch& patch = pass.patch;
+  const bool strains = T::strain && patch.result.fault.kind == FaultKind::none;
+  close_cells<Dim, Part>(pass);
   for (int first = 0; first < patch.points.groups(); first += kStageGroups) {
-    const int groups =
-        patch.points.groups() - first < kStageGroups ? patch.points.groups() - first : kStageGroups;
-    BatchData batch = batch_of(patch, c, s, w, first, groups);
-    batch.length = length;
-    for (int k = 0; k < body.stage_count; ++k) body.stages[k]->apply(batch);
-    after_stages<Dim, Configuration>(patch, view, s, first, first + groups, rate, c.indicator >= 0);
+    const int left = patch.points.groups() - first,
+              last = first + (left < kStageGroups ? left : kStageGroups);
+    if constexpr (T::velocity) settle<Dim, Affine, Part>(pass, first, last);
+    if (!strains) continue;
+    average_dilatation(pass, first, last);
+    if (pass.body.columns.local_correction >= 0) add_correction(pass, first, last);
+    run_stages<Dim, Configuration>(pass, first, last);
   }
 }
 
@@ -247,27 +287,28 @@ void gather_patch(Patch& patch, const BlockGrid& grid, const BodyKernelData& bod
   constexpr int D = Frame::dim;
   using T = PartTraits<Part>;
   load_nodes<D>(grid, patch, w.halo);
-  const GatherViews view = make_views(patch, body.columns, w);
-  const CellSums cells{w.cells, w.cells + kBlockNodes, w.cells + 2 * kBlockNodes};
+  GatherPass pass{patch,
+                  body,
+                  s,
+                  w,
+                  make_views(patch, body.columns, w),
+                  {w.cells, w.cells + kBlockNodes, w.cells + 2 * kBlockNodes}};
   if (s.average_cells) {
-    cells.clear();
-    clear_cells(cells.mean_rate);
+    pass.cells.clear();
+    clear_cells(pass.cells.mean_rate);
   }
-  const bool fluid = body.columns.local_correction >= 0;
-  if (fluid && (T::strain || T::velocity)) {  // with the weights of the force: before points move
+  if (body.columns.local_correction >= 0 && (T::strain || T::velocity)) {
+    // with the weights of the force: before points move
     load_halo<D>(s.pressure_nodes, patch, w.pressure_halo);
     correct_dilatation<T::velocity>(PressureSweep<Frame, Shape>{patch, body.columns, s, w});
   }
-  GatherSums sums;
-  gather_nodes<Frame, Shape, Affine, Configuration, Part>(patch, s, w, view, cells, sums);
-  if constexpr (T::velocity) settle<D, Affine, Part>(patch, body, s, w, view, cells, sums);
-  if (T::strain && patch.result.fault.kind == FaultKind::none) {
-    average_dilatation(patch, s, w, view, cells);
-    if (fluid) add_correction(patch, body.columns, s, w, view);
-    run_stages<D, Configuration>(patch, body, s, w, view);
+  gather_nodes<Frame, Shape, Affine, Configuration, Part>(pass);
+  if constexpr (T::velocity || T::strain) finish_points<D, Affine, Configuration, Part>(pass);
+  if (T::last) patch.result.kinetic = sum(pass.sums.kinetic);
+  if (T::velocity) {
+    patch.result.internal = sum(pass.sums.internal);
+    patch.result.external_work = s.dt * sum(pass.sums.external);
   }
-  if (T::last) patch.result.kinetic = sum(sums.kinetic);
-  if (T::velocity) patch.result.external_work = s.dt * sum(sums.external);
 }
 
 }  // namespace krater::inline KRATER_ISA
