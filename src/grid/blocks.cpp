@@ -48,7 +48,7 @@ bool before(const Patch& a, const Patch& b) {
 BlockKey block_of(const GridGeometry& geometry, const double* position) {
   BlockKey key;
   for (int a = 0; a < geometry.dimension; ++a) {
-    const int base = static_cast<int>(std::floor(geometry.storage(position[a], a) - 0.5));
+    const int base = static_cast<int>(Support::base(geometry.storage(position[a], a)));
     const int edge = block_edge(geometry.dimension);
     key.i[static_cast<std::size_t>(a)] = base >= 0 ? base / edge : -((edge - 1 - base) / edge);
   }

@@ -97,7 +97,7 @@ Totals Simulation::totals(int body) const {
         return c.map >= 0 ? at(c.map, dim * k + a) : (k == a ? 1.0 : 0.0);
       };
       for (int a = 0; a < dim; ++a)
-        t.angular_momentum += m * 0.25 * geometry_.h * geometry_.h *
+        t.angular_momentum += m * Support::moment * geometry_.h * geometry_.h *
                               (F(0, a) * at(c.affine, dim + a) - F(1, a) * at(c.affine, a));
     }
   }

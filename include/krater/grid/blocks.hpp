@@ -21,6 +21,7 @@
 #include "krater/core/aligned.hpp"
 #include "krater/core/batch_types.hpp"
 #include "krater/grid/key_index.hpp"
+#include "krater/grid/support.hpp"
 #include "krater/points/store.hpp"
 
 namespace krater {
@@ -28,8 +29,11 @@ namespace krater {
 inline constexpr int kNodeDoubles = 8;  ///< one node = one cache line = one vector register
 inline constexpr int kBlockNodes = 64;  ///< nodes (and cells) of a block: 4^3 or 8^2
 constexpr int block_edge(int dimension) { return dimension == 3 ? 4 : 8; }
-constexpr int tile_edge(int dimension) { return block_edge(dimension) + 2; }
-constexpr int tile_nodes(int dimension) { return dimension == 3 ? 216 : 100; }
+constexpr int tile_edge(int dimension) { return block_edge(dimension) + Support::support - 1; }
+constexpr int tile_nodes(int dimension) {
+  const int edge = tile_edge(dimension);
+  return dimension == 3 ? edge * edge * edge : edge * edge;
+}
 constexpr int corner_count(int dimension) { return dimension == 3 ? 8 : 4; }      ///< 2^dim
 constexpr int neighbour_count(int dimension) { return dimension == 3 ? 27 : 9; }  ///< 3^dim
 

@@ -10,16 +10,17 @@
 /// <= 1/2 the support lies in the three nodes floor(x - 1/2) + {0, 1, 2}, and constants and linear
 /// fields are reproduced exactly.
 #include "krater/core/simd.hpp"
+#include "krater/grid/support.hpp"
 
 namespace krater::inline KRATER_ISA {
 
-/// Weights of the three nodes along one axis for 8 points: S and dS/dx [in 1/h units: S' per cell].
+/// Weights of the nodes along one axis for 8 points: S and dS/dx [in 1/h units: S' per cell].
 struct Knots {
-  Pack w[3], d[3];
+  Pack w[ThreeNodes::support], d[ThreeNodes::support];
 };
 
 /// `f`: distance to the first of the three nodes in cells, in [1/2, 3/2).
-struct QuadraticBSpline {
+struct QuadraticBSpline : ThreeNodes {
   static constexpr bool has_width = false;
   static KRATER_FORCE_INLINE Knots at(Pack f, Pack /*lp*/) {
     const Pack a = 1.5 - f, b = f - 1.0, c = f - 0.5;
@@ -27,7 +28,7 @@ struct QuadraticBSpline {
   }
 };
 
-struct Linear {
+struct Linear : ThreeNodes {
   static constexpr bool has_width = false;
   static KRATER_FORCE_INLINE Knots at(Pack f, Pack /*lp*/) {
     const Mask left = f < Pack(1.0);  // between the first and the second node
@@ -38,7 +39,7 @@ struct Linear {
 };
 
 /// Half-width of the point in cells, in (0, 1/2].
-struct Gimp {
+struct Gimp : ThreeNodes {
   static constexpr bool has_width = true;
   static KRATER_FORCE_INLINE Pack hat(Pack z) { return max(1.0 - abs(z), Pack(0.0)); }
   static KRATER_FORCE_INLINE Pack antiderivative(Pack z) {
@@ -48,7 +49,7 @@ struct Gimp {
   static KRATER_FORCE_INLINE Knots at(Pack f, Pack lp) {
     const Pack scale = 0.5 / lp;
     Knots k;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < support; ++i) {
       const Pack r = f - static_cast<double>(i);
       k.w[i] = scale * (antiderivative(r + lp) - antiderivative(r - lp));
       k.d[i] = scale * (hat(r + lp) - hat(r - lp));

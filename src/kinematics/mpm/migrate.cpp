@@ -166,7 +166,7 @@ double point_kinetic(const Patch& patch, int i, const PointColumns& c,
   if (c.affine >= 0)
     for (int k = 0; k < dimension * dimension; ++k) {
       const double L = points.at(c.affine + kLanes * k, i);
-      twice += 0.25 * geometry.h * geometry.h * L * L;
+      twice += Support::moment * geometry.h * geometry.h * L * L;
     }
   return 0.5 * points.at(c.mass, i) * twice;
 }

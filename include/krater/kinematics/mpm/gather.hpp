@@ -147,7 +147,7 @@ KRATER_FORCE_INLINE Alone alone_points(const GatherViews& view, const PointSums<
   Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
   for (int a = 0; a < Dim; ++a) {
     Pack squares = 0.0;
-    for (int i = 0; i < 3; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
+    for (int i = 0; i < Support::support; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
     own = own * squares;
   }
   const Pack crowd = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
@@ -196,7 +196,7 @@ KRATER_FORCE_INLINE Pack shared_motion(const GatherViews& view, const PointSums<
   for (int a = 0; a < Dim; ++a) sum = fma(view.velocity(g, a), n.V[a] - n.V[4 + a], sum);
   if constexpr (Affine) {
     for (int a = 0; a < Dim; ++a)
-      for (int i = 0; i < 3; ++i) store(lw.d[a][i], load(lw.xw[a][i]));
+      for (int i = 0; i < Support::support; ++i) store(lw.d[a][i], load(lw.xw[a][i]));
     PointSums<Dim> moment;
     gather_group<Dim>(halo, lw, moment);
     for (int a = 0; a < Dim; ++a)
@@ -233,7 +233,7 @@ KRATER_FORCE_INLINE void update_velocity(const GatherViews& view, const PointSum
         view.affine.set(g, Dim * i + a, now);
         squares = fma(old - now, old + now, squares);
       }
-  slots[Cell::heat] = m * fma(Pack(0.125 * s.geometry->h * s.geometry->h), squares, loss);
+  slots[Cell::heat] = m * fma(Pack(0.5 * Support::moment * s.geometry->h * s.geometry->h), squares, loss);
 }
 
 /// X (I - X)^-1: the map of a step less the identity, from dt L on the configuration at its end.
@@ -346,7 +346,7 @@ KRATER_FORCE_INLINE Mask left_block(const SweepSettings& settings, const PatchOr
   Mask out = Pack(0.0) > Pack(0.0);
   for (int a = 0; a < Dim; ++a) {
     const Pack s = storage(grid, x(g, a), a);
-    const Pack cell = base_node(s) - origin.first[a];
+    const Pack cell = Support::base(s) - origin.first[a];
     out = out | (cell < Pack(0.0)) | (cell >= Pack(static_cast<double>(block_edge(Dim)))) |
           (s < Pack(settings.first[static_cast<unsigned>(a)])) |
           (s > Pack(settings.last[static_cast<unsigned>(a)]));

@@ -101,7 +101,7 @@ void gather_nodes(GatherPass& pass) {
     if constexpr (T::velocity || T::move || T::keep)
       move_points<Frame, Configuration, Part>(view, n, old, s, g);
     if constexpr (T::last) {
-      if constexpr (!T::velocity) sum_kinetic<D, Affine>(view, 0.25 * grid.h * grid.h, g, sums);
+      if constexpr (!T::velocity) sum_kinetic<D, Affine>(view, Support::moment * grid.h * grid.h, g, sums);
       unsigned gone = 0;
       if constexpr (!Configuration::fixed)
         gone = bits(left_block<D>(s, origin, view.grid_position, g) &
@@ -218,7 +218,7 @@ void settle(GatherPass& pass, int first, int last) {
     }
     sums.internal = fma(view.mass(g), e, sums.internal);
     if constexpr (PartTraits<Part>::last)
-      sum_kinetic<Dim, Affine>(view, 0.25 * s.geometry->h * s.geometry->h, g, sums);
+      sum_kinetic<Dim, Affine>(view, Support::moment * s.geometry->h * s.geometry->h, g, sums);
   }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 /// \file kinematics/mpm/weights.hpp
 /// Weights of 8 points at a time, and the tensor-product scatter and gather of one point over its
-/// 3^dim nodes (theory 21): weights are computed over points, the sums run over the 8 channels of
+/// nodes (theory 21): weights are computed over points, the sums run over the 8 channels of
 /// a node record.
 #include "krater/grid/blocks.hpp"
 #include "krater/grid/shape.hpp"
@@ -14,9 +14,9 @@ namespace krater::inline KRATER_ISA {
 /// Per axis and knot a row of 8 points: weight w, gradient d [1/m], lever xw = (x_i - x_p) w [m].
 template <int Dim>
 struct LaneWeights {
-  alignas(64) double w[Dim][3][8];
-  alignas(64) double d[Dim][3][8];
-  alignas(64) double xw[Dim][3][8];
+  alignas(64) double w[Dim][Support::support][8];
+  alignas(64) double d[Dim][Support::support][8];
+  alignas(64) double xw[Dim][Support::support][8];
   alignas(64) double first_node[8];  ///< offset of the first node in the tile, in doubles
 };
 
@@ -36,8 +36,6 @@ KRATER_FORCE_INLINE PatchOrigin origin_of(const Patch& patch) {
 KRATER_FORCE_INLINE Pack storage(const GridGeometry& grid, Pack x, int axis) {
   return (x - grid.min[static_cast<unsigned>(axis)]) * grid.inv_h + 1.0;
 }
-/// Index of the first of the three nodes (also the cell that averages), storage numbering.
-KRATER_FORCE_INLINE Pack base_node(Pack s) { return floor(s - 0.5); }
 
 /// Index of a point's cell in its block, and which lanes lie in the block at all.
 struct LocalCell {
@@ -49,7 +47,7 @@ KRATER_FORCE_INLINE LocalCell local_cell(const GridGeometry& grid, const PatchOr
                                          ReadView x, int g) {
   LocalCell out{0.0, first_lanes(kLanes)};
   for (int a = 0; a < Dim; ++a) {
-    const Pack cell = base_node(storage(grid, x(g, a), a)) - origin.first[a];
+    const Pack cell = Support::base(storage(grid, x(g, a), a)) - origin.first[a];
     const auto edge = static_cast<double>(block_edge(Dim));
     out.inside = out.inside & (cell >= Pack(0.0)) & (cell < Pack(edge));
     out.index = out.index * edge + cell;
@@ -64,12 +62,12 @@ KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOr
   Pack local = 0.0;
   for (int a = 0; a < Dim; ++a) {
     const Pack s = storage(grid, x(g, a), a);
-    const Pack base = base_node(s);
+    const Pack base = Shape::base(s);
     const Pack f = s - base;
     Pack lp = 0.5;
     if constexpr (Shape::has_width) lp = min(half_width(g, a) * grid.inv_h, Pack(0.5));
     const Knots k = Shape::at(f, lp);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < Shape::support; ++i) {
       store(out.w[a][i], k.w[i]);
       store(out.d[a][i], k.d[i] * grid.inv_h);
       if constexpr (Lever) store(out.xw[a][i], (static_cast<double>(i) - f) * grid.h * k.w[i]);
@@ -79,7 +77,7 @@ KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOr
   store(out.first_node, local * static_cast<double>(kNodeDoubles));
 }
 
-/// node += S A + sum_a (dS or lever weight)_a B_a over the 3^dim nodes of point `lane`. With Lever
+/// node += S A + sum_a (dS or lever weight)_a B_a over the nodes of point `lane`. With Lever
 /// the momentum channels 0-3 of B_a carry m L and weigh with the lever, the force channels 4-7 with
 /// the gradient.
 template <int Dim, bool Lever>
@@ -92,24 +90,27 @@ KRATER_FORCE_INLINE void scatter_point(double* tile, const LaneWeights<Dim>& lw,
     else
       return Pack(lw.d[a][i][lane]);
   };
-  constexpr int T = tile_edge(Dim), z = Dim - 1;
+  constexpr int N = Support::support, T = tile_edge(Dim), z = Dim - 1;
   double* first = tile + static_cast<int>(lw.first_node[lane]);
-  const Pack wz[3] = {weight(z, 0), weight(z, 1), weight(z, 2)};
-  const Pack gz[3] = {slope(z, 0), slope(z, 1), slope(z, 2)};
+  Pack wz[N], gz[N];
+  for (int k = 0; k < N; ++k) {
+    wz[k] = weight(z, k);
+    gz[k] = slope(z, k);
+  }
   const auto row = [&](double* node, Pack P, Pack Q) {
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < N; ++k)
       store(node + 8 * k, fma(wz[k], P, fma(gz[k], Q, load(node + 8 * k))));
   };
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
+#pragma GCC unroll 8
+  for (int i = 0; i < N; ++i) {
     const Pack wx = weight(0, i), gx = slope(0, i);
     const Pack Ai = fma(wx, A, gx * B[0]);
     if constexpr (Dim == 2) {
       row(first + 8 * T * i, Ai, wx * B[1]);
     } else {
       const Pack Bi = wx * B[1], Ci = wx * B[2];
-#pragma GCC unroll 3
-      for (int j = 0; j < 3; ++j)
+#pragma GCC unroll 8
+      for (int j = 0; j < N; ++j)
         row(first + 8 * T * (T * i + j), fma(weight(1, j), Ai, slope(1, j) * Bi),
             weight(1, j) * Ci);
     }
@@ -126,25 +127,34 @@ KRATER_FORCE_INLINE Gathered<Dim> gather_point(const double* halo, const LaneWei
                                                int lane) {
   const auto w = [&](int a, int i) { return Pack(lw.w[a][i][lane]); };
   const auto d = [&](int a, int i) { return Pack(lw.d[a][i][lane]); };
-  constexpr int T = tile_edge(Dim), z = Dim - 1;
+  constexpr int N = Support::support, T = tile_edge(Dim), z = Dim - 1;
   const double* first = halo + static_cast<int>(lw.first_node[lane]);
-  const Pack wz[3] = {w(z, 0), w(z, 1), w(z, 2)}, dz[3] = {d(z, 0), d(z, 1), d(z, 2)};
+  Pack wz[N], dz[N];
+  for (int k = 0; k < N; ++k) {
+    wz[k] = w(z, k);
+    dz[k] = d(z, k);
+  }
   Gathered<Dim> out;
   out.V = 0.0;
   for (int a = 0; a < Dim; ++a) out.G[a] = 0.0;
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
+#pragma GCC unroll 8
+  for (int i = 0; i < N; ++i) {
     Pack T0 = 0.0, T1 = 0.0, T2 = 0.0;
     const auto add_row = [&](const double* node, Pack& value, Pack& slope) {
-      const Pack n0 = load(node), n1 = load(node + 8), n2 = load(node + 16);
-      value = fma(wz[0], n0, fma(wz[1], n1, wz[2] * n2));
-      slope = fma(dz[0], n0, fma(dz[1], n1, dz[2] * n2));
+      const Pack last = load(node + 8 * (N - 1));
+      value = wz[N - 1] * last;
+      slope = dz[N - 1] * last;
+      for (int k = N - 2; k >= 0; --k) {
+        const Pack n = load(node + 8 * k);
+        value = fma(wz[k], n, value);
+        slope = fma(dz[k], n, slope);
+      }
     };
     if constexpr (Dim == 2) {
       add_row(first + 8 * T * i, T0, T1);
     } else {
-#pragma GCC unroll 3
-      for (int j = 0; j < 3; ++j) {
+#pragma GCC unroll 8
+      for (int j = 0; j < N; ++j) {
         Pack value, slope;
         add_row(first + 8 * T * (T * i + j), value, slope);
         T0 = fma(w(1, j), value, T0);
