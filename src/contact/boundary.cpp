@@ -5,8 +5,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "contact/boundary_slots.hpp"
-
 namespace krater {
 
 namespace {
@@ -30,8 +28,8 @@ Fill whole_fill(double beyond) {
 }
 
 void set_velocity(double* node, int axis, double value) {
-  node[kChange + axis] += value - node[kVelocity + axis];
-  node[kVelocity + axis] = value;
+  node[moved::change + axis] += value - node[moved::velocity + axis];
+  node[moved::velocity + axis] = value;
 }
 
 /// Coulomb: tangential velocities slow down by mu J_n, at most to those of the plane.
@@ -193,9 +191,10 @@ void BoundarySet::note_gaps() {
     if (plane.condition->kind != BoundaryKind::wall) continue;
     const double at = position(plane.axis, plane.side);
     for (Column& c : plane.columns)
-      c.gap = c.plane[kMass] > 0
-                  ? plane.inward * (c.plane[kMomentum + plane.axis] / c.plane[kMass] - at)
-                  : 0;
+      c.gap =
+          c.plane[summed::mass] > 0
+              ? plane.inward * (c.plane[summed::momentum + plane.axis] / c.plane[summed::mass] - at)
+              : 0;
   }
 }
 
@@ -224,9 +223,10 @@ BoundaryWork BoundarySet::constrain() {
         }
   if (sum.columns_in_contact == 0) return sum;
   for (const Held& h : held_) {
-    const double m = h.before[kNodeMass];
+    const double m = h.before[moved::mass];
     for (unsigned a = 0; a < 3; ++a) {
-      const double old = h.before[kVelocity + a], now = h.node[kVelocity + a], change = now - old;
+      const double old = h.before[moved::velocity + a], now = h.node[moved::velocity + a],
+                   change = now - old;
       sum.impulse[a] += m * change;
       sum.change += 0.5 * m * (now * now - old * old);
     }
@@ -238,7 +238,8 @@ BoundaryWork BoundarySet::constrain() {
 /// that has spread along the plane is a lattice of wide columns: single columns of nodes held 0.7
 /// and 1.4 of their due, and where they were let go the points beside were pressed through.
 void BoundarySet::note_fills(Plane& plane) {
-  for (Column& c : plane.columns) c.fill = {c.plane[kVolume], c.inner[kVolume] + c.ghost[kVolume]};
+  for (Column& c : plane.columns)
+    c.fill = {c.plane[moved::volume], c.inner[moved::volume] + c.ghost[moved::volume]};
   std::vector<std::array<double, 2>> raw(plane.columns.size());
   for (std::size_t axis = 0; axis < 4; axis += 2) {
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = plane.columns[i].fill;
@@ -269,11 +270,11 @@ void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& s
   double work = 0;
   for (const std::size_t i : c.held) {
     Held& h = held_[i];
-    const double m = h.before[kNodeMass];
+    const double m = h.before[moved::mass];
     std::array<double, 3> change{};
     for (unsigned a = 0; a < 3; ++a) {
-      change[a] = h.node[kVelocity + a] - h.last[a];
-      h.last[a] = h.node[kVelocity + a];
+      change[a] = h.node[moved::velocity + a] - h.last[a];
+      h.last[a] = h.node[moved::velocity + a];
       work += m * change[a] * plane.condition->velocity[a];
     }
     heat_.add(h.node, m, change);
@@ -287,7 +288,7 @@ double BoundarySet::heat() {
   const double sum = heat_.book();
   for (const Plane& plane : planes_)
     if (plane.condition->folds())
-      for (const Column& c : plane.columns) c.ghost[kVolume] = c.inner[kVolume];
+      for (const Column& c : plane.columns) c.ghost[moved::volume] = c.inner[moved::volume];
   return sum;
 }
 
@@ -301,7 +302,7 @@ bool BoundarySet::touches(const Plane& plane, const Column& c) const {
 bool BoundarySet::hold(const Plane& plane, const Column& c) const {
   const int n = plane.axis;
   const Boundary& condition = *plane.condition;
-  const double m_g = c.ghost[kNodeMass], m_0 = c.plane[kNodeMass], m_1 = c.inner[kNodeMass];
+  const double m_g = c.ghost[moved::mass], m_0 = c.plane[moved::mass], m_1 = c.inner[moved::mass];
   if (m_0 <= 0) return false;
   const double c_g = -(1 + plane.beyond) / (1 - plane.beyond),
                c_0 = -plane.beyond / (1 - plane.beyond);
@@ -343,8 +344,8 @@ bool BoundarySet::hold(const Plane& plane, const Column& c) const {
       slow_down(c.ghost, n, condition.velocity, share * std::max(0.0, push_rest) / together);
     }
   }
-  c.inner[kNodeMass] = c.ghost[kNodeMass] = together;
-  c.inner[kVolume] = c.ghost[kVolume] = c.inner[kVolume] + c.ghost[kVolume];
+  c.inner[moved::mass] = c.ghost[moved::mass] = together;
+  c.inner[moved::volume] = c.ghost[moved::volume] = c.inner[moved::volume] + c.ghost[moved::volume];
   return true;
 }
 

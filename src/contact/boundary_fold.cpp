@@ -2,7 +2,6 @@
 // Planes that fold.
 #include <algorithm>
 
-#include "contact/boundary_slots.hpp"
 #include "krater/contact/boundary.hpp"
 
 namespace krater {
@@ -15,25 +14,25 @@ void BoundarySet::fold() {
 }
 
 void BoundarySet::fold_column(Plane& plane, Column& c) const {
-  c.folded.ghost_mass = c.ghost[kMass];
+  c.folded.ghost_mass = c.ghost[summed::mass];
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<unsigned>(a);
     const bool odd = plane.odd(a);
     const double sign = odd ? -1.0 : 1.0;
-    double &p = c.inner[kMomentum + a], &p_0 = c.plane[kMomentum + a],
-           &p_g = c.ghost[kMomentum + a];
+    double &p = c.inner[summed::momentum + a], &p_0 = c.plane[summed::momentum + a],
+           &p_g = c.ghost[summed::momentum + a];
     if (odd) {
       c.folded.ghost_momentum[k] = p_g;
-      c.folded.ghost_force[k] = c.ghost[kForce + a];
+      c.folded.ghost_force[k] = c.ghost[summed::force + a];
       c.folded.plane_momentum[k] = p_0;
-      c.folded.plane_force[k] = c.plane[kForce + a];
+      c.folded.plane_force[k] = c.plane[summed::force + a];
     }
     p += sign * p_g;
-    c.inner[kForce + a] += sign * c.ghost[kForce + a];
-    if (odd) p_0 = c.plane[kForce + a] = 0;
+    c.inner[summed::force + a] += sign * c.ghost[summed::force + a];
+    if (odd) p_0 = c.plane[summed::force + a] = 0;
   }
-  c.inner[kMass] += c.ghost[kMass];
-  c.inner[kVolume] += c.ghost[kVolume];
+  c.inner[summed::mass] += c.ghost[summed::mass];
+  c.inner[moved::volume] += c.ghost[moved::volume];
   std::fill(c.ghost, c.ghost + kNodeDoubles, 0.0);
 }
 
@@ -47,7 +46,8 @@ BoundaryWork BoundarySet::folded(double dt, double alpha) const {
       for (int a = 0; a < 3; ++a) {
         if (!plane.odd(a)) continue;
         const auto k = static_cast<unsigned>(a);
-        const double change = c.inner[kChange + a], minus = c.inner[kVelocity + a] - change;
+        const double change = c.inner[moved::change + a],
+                     minus = c.inner[moved::velocity + a] - change;
         sum.impulse[k] -=
             2 * (f.ghost_mass * change + dt * f.ghost_force[k]) + dt * f.plane_force[k] +
             (1 - alpha) * (2 * (f.ghost_momentum[k] + f.ghost_mass * minus) + f.plane_momentum[k]);
@@ -63,11 +63,11 @@ void BoundarySet::mirror() const {
     for (const Column& c : plane.columns) {
       for (int a = 0; a < 3; ++a) {
         const double sign = plane.odd(a) ? -1.0 : 1.0;
-        c.ghost[kVelocity + a] = sign * c.inner[kVelocity + a];
-        c.ghost[kChange + a] = sign * c.inner[kChange + a];
+        c.ghost[moved::velocity + a] = sign * c.inner[moved::velocity + a];
+        c.ghost[moved::change + a] = sign * c.inner[moved::change + a];
       }
-      c.ghost[kNodeMass] = c.inner[kNodeMass];
-      c.ghost[kVolume] = c.inner[kVolume];
+      c.ghost[moved::mass] = c.inner[moved::mass];
+      c.ghost[moved::volume] = c.inner[moved::volume];
     }
   }
 }

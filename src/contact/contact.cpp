@@ -13,16 +13,15 @@ namespace krater {
 namespace {
 
 constexpr int kHalo = 2, kSweeps = 3;
-constexpr int kMass = 3, kChange = 4, kVolume = 7;  // [v+, m, dv, V]
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 void push(double* node, const std::array<double, 3>& impulse) {
-  const double inverse = 1 / node[kMass];
+  const double inverse = 1 / node[moved::mass];
   for (int a = 0; a < 3; ++a) {
     const double change = impulse[static_cast<unsigned>(a)] * inverse;
     node[a] += change;
-    node[kChange + a] += change;
+    node[moved::change + a] += change;
   }
 }
 
@@ -151,13 +150,13 @@ void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratc
       const std::int32_t from = group.sources[i];
       scratch.filling[i] = from < 0 ? 0.0
                                     : group.inverse[static_cast<std::size_t>(n)] *
-                                          nodes[kNodeDoubles * from + kVolume];
+                                          nodes[kNodeDoubles * from + moved::volume];
     }
 }
 
 void ContactSet::exchange(double* a, double* b, const Contact& contact, double mu,
                           ContactWork& sum) const {
-  const double reduced = a[kMass] * b[kMass] / (a[kMass] + b[kMass]);
+  const double reduced = a[moved::mass] * b[moved::mass] / (a[moved::mass] + b[moved::mass]);
   std::array<double, 3> apart{}, impulse{};
   double closing = 0;
   for (unsigned i = 0; i < 3; ++i) {
@@ -174,11 +173,11 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
   const double loss = slip > 0 ? std::min(mu * closing / slip, 1.0) : 0.0;
   for (unsigned i = 0; i < 3; ++i)
     impulse[i] = -reduced * (closing * contact.normal[i] + loss * apart[i]);
-  sum.change -= 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
+  sum.change -= 0.5 * (a[moved::mass] * square(a) + b[moved::mass] * square(b));
   push(a, impulse);
   for (double& J : impulse) J = -J;
   push(b, impulse);
-  sum.change += 0.5 * (a[kMass] * square(a) + b[kMass] * square(b));
+  sum.change += 0.5 * (a[moved::mass] * square(a) + b[moved::mass] * square(b));
   sum.friction -= reduced * slip * slip * loss * (1 - 0.5 * loss);
   sum.nodes += 1;
 }
@@ -212,7 +211,7 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& 
     at[i] = geometry_.min[i] + (index - 1) * geometry_.h;
   }
   const auto body = [&](int f) {
-    return grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field;
+    return body_of(grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field);
   };
   regress_normal(grid, columns, body(contact.a), body(contact.b), at, contact.normal);
 }
@@ -228,14 +227,14 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
     return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   for (int n = 0; n < kBlockNodes; ++n) {
-    const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + kMass]; };
+    const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + moved::mass]; };
     int at = 0;
     for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
       at += (rest % edge_ + kHalo) * stride_[a];
     for (int a = 0; a < group.fields; ++a)
       for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
         if (!(mass(b) > 0)) continue;
-        if (rigid.find(block(a).field) && rigid.find(block(b).field)) continue;
+        if (rigid.find(body_of(block(a).field)) && rigid.find(body_of(block(b).field))) continue;
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
@@ -272,7 +271,7 @@ void ContactSet::exchange_node(BlockGrid& grid, Group& group, std::size_t first,
     std::array<double, 3> change{};
     for (unsigned a = 0; a < 3; ++a) change[a] = b.node[a] - b.velocity[a];
     if (square(change.data()) == 0) continue;  // not pushed, or rigid
-    group.heat.add(b.node, b.node[kMass], change);
+    group.heat.add(b.node, b.node[moved::mass], change);
     any = true;
   }
   any =
@@ -295,13 +294,13 @@ ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
     return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   const auto touch = [&](const Contact& c) {
-    const bool a_is_rigid = rigid.find(block(c.a).field) != nullptr;
-    if (a_is_rigid || rigid.find(block(c.b).field)) {
+    const bool a_is_rigid = rigid.find(body_of(block(c.a).field)) != nullptr;
+    if (a_is_rigid || rigid.find(body_of(block(c.b).field))) {
       const Strike strike = strike_of(grid, group, c, a_is_rigid);
       return exchange(strike, twists_[static_cast<std::size_t>(strike.body)], group, sum);
     }
     exchange(block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
-             options_.friction_of(block(c.a).field, block(c.b).field), sum);
+             options_.friction_of(body_of(block(c.a).field), body_of(block(c.b).field)), sum);
   };
   for (std::size_t first = 0, end = 0; first < group.contacts.size(); first = end) {
     while (end < group.contacts.size() && group.contacts[end].node == group.contacts[first].node)

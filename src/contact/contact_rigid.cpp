@@ -15,8 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kMass = 3, kChange = 4;  // [v+, m, dv, V]
-
 /// How a node meets a rigid body: the change of its velocity that the body asks for.
 struct Meeting {
   Vector3d arm, velocity;  ///< from the centre; of the body at the node
@@ -55,10 +53,10 @@ ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& gro
   const NodeBlock& b = grid.node_blocks()[group.first + static_cast<std::size_t>(contact.b)];
   const NodeBlock &body = a_is_rigid ? a : b, &other = a_is_rigid ? b : a;
   Strike out{other.nodes + kNodeDoubles * contact.node,
-             body.field,
+             body_of(body.field),
              contact.normal,
              {},
-             options_.friction_of(a.field, b.field)};
+             options_.friction_of(body_of(a.field), body_of(b.field))};
   if (!a_is_rigid)
     for (double& n : out.normal) n = -n;
   for (int axis = geometry_.dimension - 1, rest = contact.node; axis >= 0; --axis, rest /= edge_) {
@@ -71,7 +69,7 @@ ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& gro
 void ContactSet::probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const {
   const Meeting m = meet(strike.node, strike.normal, strike.place, strike.friction, twist);
   if (!(m.closing > 0)) return;
-  const double mass = strike.node[kMass];
+  const double mass = strike.node[moved::mass];
   const Vector3d impulse = -mass * (m.closing * m.normal + m.loss * m.slip);
   share.push.head<3>() += impulse;
   share.push.tail<3>() += m.arm.cross(impulse);
@@ -87,8 +85,8 @@ void ContactSet::exchange(const Strike& strike, const RigidTwist& twist, Group& 
   const Meeting m = meet(strike.node, strike.normal, strike.place, strike.friction, twist);
   if (!(m.closing > 0)) return;
   double* node = strike.node;
-  const double mass = node[kMass];
-  Eigen::Map<Vector3d> v{node}, dv{node + kChange};
+  const double mass = node[moved::mass];
+  Eigen::Map<Vector3d> v{node}, dv{node + moved::change};
   const Vector3d change = m.closing * m.normal + m.loss * m.slip;
   sum.change -= 0.5 * mass * v.squaredNorm();
   v += change;
@@ -118,8 +116,10 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
   for_each(groups_.size(), [&](std::size_t g) {
     Group& group = groups_[g];
     for (const Contact& c : group.contacts) {
-      const int a = grid.node_blocks()[group.first + static_cast<std::size_t>(c.a)].field,
-                b = grid.node_blocks()[group.first + static_cast<std::size_t>(c.b)].field;
+      const auto body_in = [&](int f) {
+        return body_of(grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field);
+      };
+      const int a = body_in(c.a), b = body_in(c.b);
       const RigidBody* body = rigid.find(a) ? rigid.find(a) : rigid.find(b);
       if (!body || !body->options().free) continue;
       const Strike strike = strike_of(grid, group, c, rigid.find(a) != nullptr);

@@ -18,7 +18,7 @@ double ImpulseHeat::book() const {
         heat -= p.mass * (p.node[velocity + a] - 0.5 * p.node[change + a]) * p.change[a];
     }
     if (mass > 0)
-      for (std::size_t i = first; i < loss.end; ++i) pushed_[i].node[kNodeWork] += heat / mass;
+      for (std::size_t i = first; i < loss.end; ++i) pushed_[i].node[moved::work] += heat / mass;
     first = loss.end;
     sum += heat;
   }

@@ -39,6 +39,8 @@ BlockKey at_corner(const BlockKey& key, int corner, int sign, int dimension) {
   return k;
 }
 
+int tag(FieldId field) { return static_cast<int>(field); }
+
 bool before(const Patch& a, const Patch& b) {
   return a.key != b.key ? a.key < b.key : a.body < b.body;
 }
@@ -59,11 +61,11 @@ int BlockGrid::find_patch(const BlockKey& key, int body) const {
   return patch_index_.find(key, body);
 }
 
-int BlockGrid::find_node_block(const BlockKey& key, int field) const {
-  return node_index_.find(key, field);
+int BlockGrid::find_node_block(const BlockKey& key, FieldId field) const {
+  return node_index_.find(key, tag(field));
 }
 
-double* BlockGrid::find_node(const std::array<int, 3>& storage_index, int field) const {
+double* BlockGrid::find_node(const std::array<int, 3>& storage_index, FieldId field) const {
   const int edge = block_edge(geometry_.dimension);
   BlockKey key;
   int local = 0;
@@ -96,7 +98,7 @@ void BlockGrid::rebuild(bool drop_empty) {
   for (Patch& p : patches_)
     p.field = static_cast<std::size_t>(p.body) < field_of_body_.size()
                   ? field_of_body_[static_cast<std::size_t>(p.body)]
-                  : 0;
+                  : FieldId{};
   make_node_blocks();
   link_patches();
 }
@@ -108,8 +110,8 @@ void BlockGrid::make_node_blocks() {
   for (const Patch& patch : patches_)
     for (int c = 0; c < corners; ++c) {
       const BlockKey key = at_corner(patch.key, c, 1, dimension);
-      if (node_index_.find(key, patch.field) >= 0) continue;
-      node_index_.insert(key, patch.field, static_cast<int>(node_blocks_.size()));
+      if (node_index_.find(key, tag(patch.field)) >= 0) continue;
+      node_index_.insert(key, tag(patch.field), static_cast<int>(node_blocks_.size()));
       NodeBlock& block = node_blocks_.emplace_back();
       block.key = key;
       block.field = patch.field;
@@ -122,7 +124,7 @@ void BlockGrid::make_node_blocks() {
   node_index_.clear(node_blocks_.size());
   for (std::size_t n = 0; n < node_blocks_.size(); ++n) {
     node_blocks_[n].nodes = node_memory_.data() + n * per_block;
-    node_index_.insert(node_blocks_[n].key, node_blocks_[n].field, static_cast<int>(n));
+    node_index_.insert(node_blocks_[n].key, tag(node_blocks_[n].field), static_cast<int>(n));
   }
 }
 

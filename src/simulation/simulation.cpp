@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -92,8 +91,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   choice.affine = choice.fixed_reference;
   plain_kernels_.reset(make(choice));
   if (choice.fixed_reference || scene.contact.active) {  // a velocity field for each body
-    std::vector<int> fields(bodies_.size());
-    std::iota(fields.begin(), fields.end(), 0);
+    std::vector<FieldId> fields;
+    for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) fields.push_back(own_field(b));
     grid_.set_fields(std::move(fields));
   }
   step_ = std::make_unique<MpmStep>(

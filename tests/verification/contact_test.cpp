@@ -366,12 +366,12 @@ TEST_SUITE("verification") {
     // Contact alone, on the nodes of this step: the right disc is thrown at the left one again.
     BlockGrid& grid = run.sim->grid();
     for (NodeBlock& block : grid.node_blocks())
-      for (int n = 0; n < kBlockNodes && block.field == 1; ++n)
+      for (int n = 0; n < kBlockNodes && block.field == own_field(1); ++n)
         block.nodes[kNodeDoubles * n] -= 30, block.nodes[kNodeDoubles * n + 1] += 11;
     for (NodeBlock& block : grid.node_blocks())  // volumes again, where the step has left its work
       for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
            node += kNodeDoubles)
-        node[kNodeWork] = node[3] / kSteel.density;
+        node[moved::work] = node[3] / kSteel.density;
     ContactOptions options;
     options.active = true, options.fields = 2, options.friction.assign(4, 0.3);
     ContactSet contact{grid.geometry(), BoundaryConditions{}, false, false, options};

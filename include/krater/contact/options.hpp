@@ -37,7 +37,7 @@ struct ContactOptions {
   bool active = false;
   ContactNormal normal = ContactNormal::volume_gradient;
   int fields = 0;
-  std::vector<double> friction;  ///< Coulomb coefficient by pair of fields, fields x fields
+  std::vector<double> friction;  ///< Coulomb coefficient by pair of bodies, fields x fields
   double friction_of(int a, int b) const {
     return friction[static_cast<std::size_t>(a * fields + b)];
   }

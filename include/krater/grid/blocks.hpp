@@ -21,12 +21,12 @@
 #include "krater/core/aligned.hpp"
 #include "krater/core/batch_types.hpp"
 #include "krater/grid/key_index.hpp"
+#include "krater/grid/node_record.hpp"
 #include "krater/grid/support.hpp"
 #include "krater/points/store.hpp"
 
 namespace krater {
 
-inline constexpr int kNodeDoubles = 8;  ///< one node = one cache line = one vector register
 inline constexpr int kBlockNodes = 64;  ///< nodes (and cells) of a block: 4^3 or 8^2
 constexpr int block_edge(int dimension) { return dimension == 3 ? 4 : 8; }
 constexpr int tile_edge(int dimension) { return block_edge(dimension) + Support::support - 1; }
@@ -50,6 +50,13 @@ struct GridGeometry {
     return min[static_cast<std::size_t>(axis)] + h * cells[static_cast<std::size_t>(axis)];
   }
 };
+
+/// A velocity field of the grid. It is no body: a type of its own keeps one index from being taken
+/// for the other, which are the same number only where every body has a field of its own.
+enum class FieldId : int {};
+/// There: with contact, or on a fixed reference configuration.
+constexpr int body_of(FieldId field) { return static_cast<int>(field); }
+constexpr FieldId own_field(int body) { return static_cast<FieldId>(body); }
 
 /// The block that owns a position of `dimension` coordinates.
 BlockKey block_of(const GridGeometry& geometry, const double* position);
@@ -104,7 +111,7 @@ struct PatchLinks {
 struct Patch {
   BlockKey key;
   int body = 0;
-  int field = 0;  ///< velocity field of the body, filled by rebuild
+  FieldId field{};  ///< velocity field of the body, filled by rebuild
   PointStore points;
   Tile tile;
   AlignedBuffer beta;           ///< per cell: 1 averaged .. 0 shock
@@ -142,7 +149,7 @@ struct NodeSums {
 
 struct NodeBlock {
   BlockKey key;
-  int field = 0;
+  FieldId field{};
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   bool at_boundary = false;
   bool at_wall = false;  ///< holds columns of a unilateral wall
@@ -153,8 +160,6 @@ struct NodeBlock {
   NodeSums sums;
 };
 
-/// Slot of a node's record that holds the volume, and in the gather the work k of the step [J/kg].
-inline constexpr int kNodeWork = 7;
 /// A block at rest, whose tiles may not be summed again, keeps its volumes: there k is zero.
 inline bool keeps_volumes(const NodeBlock& block) { return block.still && !block.at_boundary; }
 
@@ -179,11 +184,11 @@ class BlockGrid {
   /// Drop the patches of a body, or all of them; rebuild() afterwards.
   void drop_patches(int body = -1);
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
-  void set_fields(std::vector<int> field_of_body) { field_of_body_ = std::move(field_of_body); }
-  int find_patch(const BlockKey& key, int body) const;        ///< -1: none
-  int find_node_block(const BlockKey& key, int field) const;  ///< -1: none
+  void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
+  int find_patch(const BlockKey& key, int body) const;            ///< -1: none
+  int find_node_block(const BlockKey& key, FieldId field) const;  ///< -1: none
   /// nullptr: not stored
-  double* find_node(const std::array<int, 3>& storage_index, int field) const;
+  double* find_node(const std::array<int, 3>& storage_index, FieldId field) const;
   /// Sort patches, drop empty ones if asked, lay out node blocks and all links.
   void rebuild(bool drop_empty);
 
@@ -195,7 +200,7 @@ class BlockGrid {
   std::vector<Patch> patches_;
   std::vector<NodeBlock> node_blocks_;
   std::vector<TileRef> tile_refs_;
-  std::vector<int> field_of_body_;
+  std::vector<FieldId> field_of_body_;
   KeyIndex patch_index_, node_index_;
   AlignedBuffer node_memory_;
 };

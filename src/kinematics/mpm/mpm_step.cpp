@@ -259,7 +259,7 @@ double MpmStep::momentum(double& dt, double force_share) {
   lap(Phase::boundary);
   double kinetic = rigid_.kinetic();
   for (const NodeBlock& block : grid_.node_blocks()) {
-    if (rigid_.any() && rigid_.find(block.field)) continue;
+    if (rigid_.any() && rigid_.find(body_of(block.field))) continue;
     kinetic += block.sums.kinetic;
   }
   return kinetic;

@@ -13,7 +13,6 @@ namespace krater {
 namespace {
 
 constexpr std::size_t kBlockDoubles = static_cast<std::size_t>(kBlockNodes) * kNodeDoubles;
-constexpr int kForce = 4, kVolume = 7;  // [m, p, f, V]
 
 bool is_fluid(const BodyKernelData& body) { return body.columns.local_correction >= 0; }
 
@@ -142,10 +141,10 @@ void MpmStep::collect_pressure(const SweepSettings& s) {
     while (first > 0 && blocks[first - 1].key == blocks[block].key) --first;
     double fill = 0;
     for (std::size_t b = first; b < blocks.size() && blocks[b].key == blocks[block].key; ++b)
-      fill += blocks[b].nodes[node + kVolume];
+      fill += blocks[b].nodes[node + summed::volume];
     double* record = second_record(blocks[block].nodes) + node;
     record[kNodeFill] = record[kNodeReach] = fill;
-    record[kNodeOwn] = blocks[block].nodes[node + kVolume];
+    record[kNodeOwn] = blocks[block].nodes[node + summed::volume];
     if (is_folded_ghost(grid_.geometry(), boundary_.conditions(), blocks[block].key,
                         node / kNodeDoubles))
       record[kNodeReach] = record[kNodeOwn] = 1e30;
@@ -168,7 +167,7 @@ void MpmStep::add_pressure_force(const SweepSettings& s) {
   for_fluid_nodes([&](std::size_t block, int node) {
     double* nodes = grid_.node_blocks()[block].nodes;
     for (int a = 0; a < 3; ++a)
-      nodes[node + kForce + a] += second_record(nodes)[node + kNodeForce + a];
+      nodes[node + summed::force + a] += second_record(nodes)[node + kNodeForce + a];
   });
 }
 

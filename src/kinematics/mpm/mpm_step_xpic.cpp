@@ -59,7 +59,7 @@ void MpmStep::write_filtered_work() {
       k += (minus + 0.5 * change) * forced[4 + a] + minus * minus;
       nodes[i + 4 + a] = change;
     }
-    nodes[i + kNodeWork] = k;
+    nodes[i + moved::work] = k;
   }
   for (NodeBlock& block : grid_.node_blocks()) block.still = false;
   boundary_.mirror();

@@ -89,7 +89,7 @@ void load_nodes(const BlockGrid& grid, const Patch& patch, double* halo) {
   for (int n = 0; n < tile_nodes(Dim); ++n) {
     const int i = n / (T * T), j = n / T % T, k = n % T;
     const int corner = Dim == 3 ? i / E + 2 * (j / E) + 4 * (k / E) : j / E + 2 * (k / E);
-    if ((kept >> corner & 1U) != 0) halo[kNodeDoubles * n + kNodeWork] = 0;
+    if ((kept >> corner & 1U) != 0) halo[kNodeDoubles * n + moved::work] = 0;
   }
 }
 
@@ -147,7 +147,8 @@ KRATER_FORCE_INLINE Alone alone_points(const GatherViews& view, const PointSums<
   Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
   for (int a = 0; a < Dim; ++a) {
     Pack squares = 0.0;
-    for (int i = 0; i < Support::support; ++i) squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
+    for (int i = 0; i < Support::support; ++i)
+      squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
     own = own * squares;
   }
   const Pack crowd = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
@@ -233,7 +234,8 @@ KRATER_FORCE_INLINE void update_velocity(const GatherViews& view, const PointSum
         view.affine.set(g, Dim * i + a, now);
         squares = fma(old - now, old + now, squares);
       }
-  slots[Cell::heat] = m * fma(Pack(0.5 * Support::moment * s.geometry->h * s.geometry->h), squares, loss);
+  slots[Cell::heat] =
+      m * fma(Pack(0.5 * Support::moment * s.geometry->h * s.geometry->h), squares, loss);
 }
 
 /// X (I - X)^-1: the map of a step less the identity, from dt L on the configuration at its end.

@@ -47,7 +47,7 @@ template <int Dim, bool Affine>
 KRATER_FORCE_INLINE void book_motion(GatherPass& pass, const PointSums<Dim>& n,
                                      LaneWeights<Dim>& lw, Mask silent, int g) {
   auto& [patch, body, s, w, view, cells, sums, takes] = pass;
-  Pack slots[8], loss = n.V[kNodeWork];
+  Pack slots[8], loss = n.V[moved::work];
   if (s.moments) loss -= shared_motion<Dim, Affine>(view, n, w.halo, lw, g);
   update_velocity<Dim, Affine>(view, n, s, sums.base, silent, loss, g, slots);
   CellLedger<Dim>{w.cells + kCellLedger}.add(w.pressures + kLanes * g, slots);
@@ -101,7 +101,8 @@ void gather_nodes(GatherPass& pass) {
     if constexpr (T::velocity || T::move || T::keep)
       move_points<Frame, Configuration, Part>(view, n, old, s, g);
     if constexpr (T::last) {
-      if constexpr (!T::velocity) sum_kinetic<D, Affine>(view, Support::moment * grid.h * grid.h, g, sums);
+      if constexpr (!T::velocity)
+        sum_kinetic<D, Affine>(view, Support::moment * grid.h * grid.h, g, sums);
       unsigned gone = 0;
       if constexpr (!Configuration::fixed)
         gone = bits(left_block<D>(s, origin, view.grid_position, g) &

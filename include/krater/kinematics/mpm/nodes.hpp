@@ -104,7 +104,7 @@ KRATER_FORCE_INLINE void work_of_block(NodeBlock& block, bool moments) {
       for (int a = 0; a < 3; ++a) k = fma(n[a] - n[4 + a], n[a] - n[4 + a], k);
     alignas(64) double out[8];
     store(out, k);
-    for (int i = 0; i < 8; ++i) record[8 * i + kNodeWork] = out[i];
+    for (int i = 0; i < 8; ++i) record[8 * i + moved::work] = out[i];
   }
 }
 
