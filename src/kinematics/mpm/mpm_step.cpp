@@ -69,6 +69,7 @@ PointStore& MpmStep::change(int s) {
 
 double MpmStep::force(double dt) {
   watch_.start();
+  audit_.step_external = 0;  // of the question before, if there was one
   if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
   if (method_.reference != Reference::current) measure_gaps();
   particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
