@@ -129,14 +129,7 @@ Node read_body(const Node& node, Reading& reading) {
     body.solid = read.solid;
     block.record("shape", read.resolved);
   }
-  if (const Node* velocity = block.find("velocity")) {
-    if (const std::optional<ReadField> field = read_field(*velocity, "m/s", reading)) {
-      body.velocity = field->field;
-      block.record("velocity", field->resolved);
-    }
-  } else {
-    block.record("velocity", vector_node(reading.scene.frame, Triple{}));
-  }
+  body.velocity = read_motion(block, body.solid.get(), reading);
   if (const Node* rigid = block.find("rigid"))
     block.record("rigid", read_rigid(*rigid, body, reading));
   body.thin_allowed =

@@ -29,11 +29,12 @@ constexpr std::array kKinds{
 
 constexpr double kSticks = std::numeric_limits<double>::infinity();
 
-/// `[0, -10 m/s]`, which sticks, or `{of: [0, -10 m/s], friction: 0.1}`.
+/// `[0, -10 m/s]` or `{speed: 10 m/s, towards: -z}`, which stick, or `{of: [0, -10 m/s], friction:
+/// 0.1}`.
 void read_driven(const Node& node, const Choice& choice, Reading& reading, Boundary& boundary) {
   boundary.friction = kSticks;
   const Node* velocity = choice.value;
-  if (velocity && velocity->kind == Node::Kind::map) {
+  if (velocity && velocity->kind == Node::Kind::map && !velocity->find("speed")) {
     Block block{choice.value, node.path + "." + choice.name, node, reading.problems};
     velocity = block.find("of");
     if (block.find(kFriction.key)) boundary.friction = block.number(kFriction);
@@ -43,7 +44,9 @@ void read_driven(const Node& node, const Choice& choice, Reading& reading, Bound
     reading.problems.add(node.file, node.line, node.path,
                          "expected {velocity: [radial or x, axial z]} or {velocity: {of: [radial "
                          "or x, axial z], friction: 0}}");
-  else if (const auto read = read_vector(*velocity, "m/s", reading))
+  else if (const auto read = velocity->kind == Node::Kind::map
+                                 ? read_speed(*velocity, reading)
+                                 : read_vector(*velocity, "m/s", reading))
     boundary.velocity = *read;
 }
 

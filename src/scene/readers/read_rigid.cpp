@@ -14,17 +14,12 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading) {
   }
   Block block{&node, node.path, node, reading.problems};
   body.motion = Motion::prescribed;
-  const Node* velocity = block.require("velocity", "for example [0, -10 m/s], or rigid: free");
-  if (velocity) {
-    if (body.velocity)
-      block.fail(*velocity,
-                 "the body has a velocity at the start too; a prescribed motion needs "
-                 "only rigid.velocity");
-    if (const std::optional<ReadField> field = read_field(*velocity, "m/s", reading)) {
-      body.velocity = field->field;
-      block.record("velocity", field->resolved);
-    }
-  }
+  if (!block.find("turn")) block.require("velocity", "for example [0, -10 m/s], or rigid: free");
+  if (body.velocity)
+    block.fail(
+        "the body has a velocity at the start too; a prescribed motion needs only that of "
+        "rigid");
+  body.velocity = read_motion(block, body.solid.get(), reading);
   return block.finish();
 }
 

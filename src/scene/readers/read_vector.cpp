@@ -128,6 +128,7 @@ std::optional<ReadField> read_field(const Node& node, const char* unit, Reading&
     resolved.push_back(expression ? string_node(texts.back()) : number_node(component.value));
   }
   result.resolved = list_node(resolved);
+  result.expression = any_expression;
   if (any_expression) {
     try {
       result.field = make_expression_field(reading.scene.frame, texts);

@@ -57,8 +57,18 @@ std::optional<Triple> read_position(const Node& node, Reading& reading);
 struct ReadField {
   std::shared_ptr<const FieldFunction> field;
   Node resolved;
+  bool expression = false;  ///< not all components are numbers
 };
 std::optional<ReadField> read_field(const Node& node, const char* unit, Reading& reading);
+
+/// `{speed: 830 m/s, towards: [0, -1]}` or `{speed: 830 m/s, angle: 30 degree}`.
+std::optional<Triple> read_speed(const Node& node, Reading& reading);
+/// A velocity by components, numbers or expressions, or by its speed and direction.
+std::optional<ReadField> read_velocity(const Node& node, Reading& reading);
+/// `velocity` and `turn` of a body or of a rigid body's motion; null: at rest. `solid` gives the
+/// centre of a turn that names none.
+std::shared_ptr<const FieldFunction> read_motion(Block& block, const Solid* solid,
+                                                 Reading& reading);
 
 /// A vector as resolved.yaml shows it: one component per grid axis.
 Node vector_node(Frame frame, const Triple& value);

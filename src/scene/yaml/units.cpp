@@ -188,7 +188,11 @@ QuantityText parse_quantity(std::string_view text, const char* unit) {
   const scene::UnitText parsed = scene::parse_unit(tail);
   if (!parsed.problem.empty()) return {0, quote(text) + ": " + parsed.problem};
   const std::optional<double> factor = UnitSystem::instance().factor(parsed.udunits, unit);
-  if (!factor) return {0, quote(text) + " has the wrong dimension: " + expectation(unit)};
+  if (!factor) {
+    const bool degrees = std::string_view{unit} == "K" && tail.starts_with("deg");
+    return {0, quote(text) + " has the wrong dimension: " + expectation(unit) +
+                   (degrees ? "; degrees Celsius are degC" : "")};
+  }
   const std::optional<double> value = to_double(number, parsed.exponent);
   // UDUNITS may find a factor of 1 by a detour that costs a last bit.
   const bool decimal = std::abs(*factor - 1) < 1e-14;
