@@ -11,31 +11,10 @@ namespace {
 
 constexpr double kUnlike = 10;  // ratio of densities; tungsten on aluminium is 7
 
-constexpr int kEnough = 4;  // points per direction that kept a gas in a tube of 20 cells
-
-/// With contact the pressure of a fluid is that of its points, and two points per direction cannot
-/// hold it: detonation products went through a copper tube, air past a piston.
-void doubt_fluids(const Scene& scene, std::vector<std::string>& doubts) {
-  if (!scene.contact.active || scene.bodies.size() < 2) return;
-  for (const BodyOptions& body : scene.bodies) {
-    const MaterialOptions& material = scene.materials[static_cast<std::size_t>(body.material)];
-    if (body.rigid() || material.strength) continue;
-    const auto& given = body.points.per_direction;
-    const int least = *std::min_element(given.begin(), given.begin() + dimension(scene.frame));
-    if (least >= kEnough) continue;
-    doubts.push_back(fmt::format(
-        "{} has no strength and meets other bodies in contact: with {} points per direction a "
-        "fluid leaks through their joints; points: {{per_direction: {}}} of the body keeps most of "
-        "it",
-        body.name, least, kEnough));
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> doubt_fields(const Scene& scene) {
   std::vector<std::string> doubts;
-  doubt_fluids(scene, doubts);
   // With contact, or on a fixed reference, every body has a field of its own.
   if (scene.contact.active || scene.method.reference != Reference::current) return doubts;
   for (std::size_t a = 0; a < scene.bodies.size(); ++a)

@@ -238,7 +238,9 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
-        Contact contact{n, a, b, at, {}, false};
+        const std::array fluid{is_fluid(body_of(block(a).field)),
+                               is_fluid(body_of(block(b).field))};
+        Contact contact{n, a, b, at, {}, false, fluid};
         if (!find_contact(scratch, at, contact)) continue;
         if (contact.even && options_.normal == ContactNormal::logistic_regression)
           refine(grid, columns, group, contact);

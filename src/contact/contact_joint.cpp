@@ -92,8 +92,13 @@ bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) 
   // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
   // that of the plate. Equal ones are averaged.
   const double a2 = square(grad_a.data()), b2 = square(grad_b.data());
-  const double lesser = std::pow(std::min(a2, b2) / std::max(a2, b2), kSteeper);
-  const double weight_a = a2 < b2 ? lesser : 1, weight_b = a2 < b2 ? 1 : lesser;
+  double lesser = std::pow(std::min(a2, b2) / std::max(a2, b2), kSteeper);
+  bool a_decides = a2 >= b2;
+  if (contact.fluid[0] != contact.fluid[1]) {  // the points of a fluid lie anyhow
+    a_decides = contact.fluid[1];
+    lesser = 0;
+  }
+  const double weight_a = a_decides ? 1 : lesser, weight_b = a_decides ? lesser : 1;
   contact.even = lesser > 0.5;
   for (unsigned a = 0; a < 3; ++a) contact.normal[a] = weight_b * grad_b[a] - weight_a * grad_a[a];
   const double length = std::sqrt(square(contact.normal.data()));

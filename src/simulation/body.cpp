@@ -91,9 +91,13 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
 bool Body::pressure_on_grid(const Scene& scene) const {
   const Column* c = layout_.find(field::SoundSpeed::info.name);
   if (c == nullptr || scene.method.reference != Reference::current) return false;
-  if (scene.method.grid_pressure != GridPressure::fluids)
-    return scene.method.grid_pressure == GridPressure::all;
-  if (scene.contact.active) return false;  // a joint moves too much of a light node (src/README.md)
+  return scene.method.grid_pressure == GridPressure::all ||
+         (scene.method.grid_pressure == GridPressure::fluids && is_fluid());
+}
+
+bool Body::is_fluid() const {
+  const Column* c = layout_.find(field::SoundSpeed::info.name);
+  if (c == nullptr) return false;
   const double bulk = material_->density * c->initial * c->initial;
   const bool solid = material_->strength || material_->model;
   return !solid || material_->shear_modulus < kSoft * bulk;

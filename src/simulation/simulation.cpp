@@ -107,12 +107,14 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
 }
 
 void Simulation::place_rigid_bodies() {
-  std::vector<bool> rigid(bodies_.size());
+  std::vector<bool> rigid(bodies_.size()), fluid(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    fluid[b] = bodies_[b]->is_fluid();
     rigid[b] = bodies_[b]->options().rigid();
     if (rigid[b]) rigid_.add(rigid_options(scene_, *bodies_[b], static_cast<int>(b)));
   }
   boundary_.set_rigid_fields(std::move(rigid));
+  contact_.set_fluids(std::move(fluid));
   place_points();
   for (RigidBody& body : rigid_.all())
     body.place(grid_, kernel_data_[static_cast<std::size_t>(body.options().body)].columns, 0);

@@ -14,7 +14,8 @@
 /// gap are judged there, for in the tail of a body its gradient means nothing.
 /// Normal: n ~ |grad phi_B|^80 grad phi_B - |grad phi_A|^80 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
-/// aside; equal ones are averaged. `normal: logistic_regression` takes n from the points instead
+/// aside; equal ones are averaged; of a fluid and a solid the solid decides, for the points of a
+/// fluid lie anyhow. `normal: logistic_regression` takes n from the points instead
 /// (contact/contact_regression.hpp), where neither body is the wider one. In nodes of a plane that
 /// mirrors n keeps no component across it.
 /// Touching (contact/contact_joint.cpp): bodies are apart as soon as one grid axis parts them.
@@ -63,6 +64,7 @@ class ContactSet {
   ContactSet(const GridGeometry& geometry, const BoundaryConditions& conditions, bool hoop,
              bool linear, const ContactOptions& options);
   bool active() const { return options_.active; }
+  void set_fluids(std::vector<bool> by_body) { fluids_ = std::move(by_body); }
   /// Find the blocks that fields share; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
   /// Change v+ and dv of [v+, m, dv, V] where fields touch, and the velocities of free rigid
@@ -81,6 +83,7 @@ class ContactSet {
     int joint;  ///< padded node where the bodies meet
     std::array<double, 3> normal;
     bool even;  ///< both bodies are about as wide at the joint
+    std::array<bool, 2> fluid;
   };
   /// What one group does to one rigid body: impulses, or what foretells them.
   struct RigidShare {
@@ -129,6 +132,10 @@ class ContactSet {
   using AxisLinks = std::array<std::array<AxisLink, 12>, 3>;
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(int axis, int index) const;
+  bool is_fluid(int body) const {
+    return static_cast<std::size_t>(body) < fluids_.size() &&
+           fluids_[static_cast<std::size_t>(body)];
+  }
   int mirrored(int axis, int index) const;
   void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
                      Scratch& scratch, const RigidBodies& rigid) const;
@@ -159,6 +166,7 @@ class ContactSet {
   BoundaryConditions conditions_;
   bool hoop_, linear_;
   ContactOptions options_;
+  std::vector<bool> fluids_;                ///< by body; beyond the list: no
   int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;
   std::vector<RigidTwist> twists_;  ///< by body: velocities that nodes meet in this step

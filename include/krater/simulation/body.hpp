@@ -34,7 +34,8 @@ class Body {
   void require_thickness(double cell) const;
   double q_lin() const { return q_lin_; }
   double initial_sound_speed() const { return sound_speed_; }  ///< longitudinal, undeformed [m/s]
-  /// The step integrates the pressure on the grid (mpm/grid_pressure.hpp): fluids, soft ones.
+  bool is_fluid() const;  ///< or a soft solid, G below 1 % of K
+  /// The step integrates the pressure on the grid (mpm/grid_pressure.hpp).
   bool pressure_on_grid(const Scene& scene) const;
   bool degrades() const { return degrades_; }  ///< damage weakens the stress, s = (1 - phi) s~
   BodyKernelData kernel_data() const;
