@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/continuation.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
 #include "krater/app/machine.hpp"
@@ -18,6 +19,7 @@
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
 #include "krater/measure/measurements.hpp"
+#include "krater/measure/outcomes.hpp"
 #include "krater/measure/snapshot.hpp"
 #include "krater/scene/compare.hpp"
 
@@ -48,28 +50,6 @@ std::string default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem().string() + "_out";
 }
 
-/// For a shell.
-std::string quoted(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                              "0123456789_-+./=:,@%") == std::string::npos)
-    return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string{"'\\''"} : std::string{c};
-  return out + "'";
-}
-
-std::string command(const RunOptions& options, const std::string& folder) {
-  std::string text = "krater run " + quoted(options.scene);
-  for (const std::string& setting : options.overrides) text += " --set " + quoted(setting);
-  if (options.threads > 0) text += fmt::format(" -j {}", options.threads);
-  return text + " -o " + quoted(folder);
-}
-
-/// The command that continues a run from its checkpoint.
-std::string continuation(const RunOptions& options, const std::string& folder) {
-  return command(options, folder) + " --restart " + quoted(folder + "/checkpoint.h5");
-}
-
 class Runner {
  public:
   Runner(const RunOptions& options, Scene scene)
@@ -77,6 +57,7 @@ class Runner {
         scene_{std::move(scene)},
         sim_{scene_},
         measurements_{sim_},
+        outcomes_{sim_, history_titles()},
         results_{options.output.empty() ? default_output(options.scene) : options.output,
                  !options.restart.empty()} {}
 
@@ -89,6 +70,7 @@ class Runner {
   std::vector<Quantity> history_columns();
   std::vector<Quantity> history_titles() const;  ///< without measuring, which measures remember
   void write_history();
+  void write_due(Schedule& frames, Schedule& history);
   void write_frame(double time);
   void write_checkpoint();
   /// To the log, and aloud unless --quiet.
@@ -106,6 +88,7 @@ class Runner {
   Scene scene_;
   Simulation sim_;
   Measurements measurements_;
+  Outcomes outcomes_;
   ResultsFolder results_;
   FolderLock lock_;
   int frame_ = 0;
@@ -169,6 +152,7 @@ void Runner::resume() {
     throw InputError(options_.restart + ": damaged, or written by another version of krater");
   }
   measurements_.restore(checkpoint, sim_.scene(), changed_measures(differences));
+  outcomes_.restore(checkpoint);
   for (const SceneDifference& d : differences) changed_ += (changed_.empty() ? "" : ", ") + d.path;
   const CheckpointBlob* counters = checkpoint.find("output");
   if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
@@ -200,6 +184,7 @@ void Runner::write_checkpoint() {
   Checkpoint c = sim_.save();
   c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
   measurements_.save(c, scene_);
+  outcomes_.save(c);
   c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
   results_.write_checkpoint(c);
 }
@@ -218,6 +203,21 @@ void Runner::watch_time_step() {
   foreseen_dt_ = 0;
 }
 
+/// What is due after a step; all of it where the answer is there, for the run ends.
+void Runner::write_due(Schedule& frames, Schedule& history) {
+  const bool row = history.due(sim_.time()) || scene_.output.history <= 0;
+  std::vector<Quantity> columns;
+  if (row) {
+    columns = history_columns();
+    results_.write_history(columns);
+    history.advance(sim_.time());
+  }
+  const bool ends = outcomes_.look(sim_, columns);
+  if (ends && !row) write_history();
+  if (ends || frames.due(sim_.time())) write_frame(sim_.time());
+  frames.advance(sim_.time());
+}
+
 int Runner::go() {
   begin();
   listen_to_signals();
@@ -228,7 +228,7 @@ int Runner::go() {
   double last_checkpoint = 0;
   foreseen_dt_ = sim_.expected_dt();
   try {
-    while (!sim_.done()) {
+    while (!sim_.done() && !outcomes_.answered()) {
       if (interrupted != 0) {
         // No row of history: a continued run has none here.
         write_checkpoint();
@@ -239,14 +239,7 @@ int Runner::go() {
         return finish("interrupted", message, kInterrupted, progress);
       }
       sim_.step(frames.next());
-      if (history.due(sim_.time()) || scene_.output.history <= 0) {
-        write_history();
-        history.advance(sim_.time());
-      }
-      if (frames.due(sim_.time())) {
-        write_frame(sim_.time());
-        frames.advance(sim_.time());
-      }
+      write_due(frames, history);
       if (scene_.output.checkpoint_wall > 0 &&
           progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall) {
         write_checkpoint();
@@ -325,6 +318,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
   measurements_.summarize(sim_, j);
+  outcomes_.summarize(sim_, j);
   std::string names;
   for (const std::string& name : measurements_.without_points())
     names += (names.empty() ? "" : ", ") + name;
@@ -367,6 +361,10 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
   results_.flush();
+  for (const std::string& line : outcomes_.sentences()) tell(line);
+  if (outcomes_.answered())
+    tell(fmt::format("stopped at {:.4g} s of {:.4g} s: {}", sim_.time(), scene_.time.end,
+                     outcomes_.answer()));
   const double failed = sim_.audit().removed_failed;
   if (failed > 0)
     tell(fmt::format("note: {:.0f} points failed and were removed, as the scene asks", failed));

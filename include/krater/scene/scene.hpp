@@ -14,9 +14,11 @@
 #include "krater/geometry/frame.hpp"
 #include "krater/geometry/seeds/lattice.hpp"
 #include "krater/geometry/solids/solid.hpp"
+#include "krater/kinematics/mpm/load_options.hpp"
 #include "krater/kinematics/mpm/options.hpp"
 #include "krater/materials/stage.hpp"
 #include "krater/scene/measures.hpp"
+#include "krater/scene/outcomes.hpp"
 
 namespace krater {
 
@@ -115,7 +117,10 @@ struct Scene {
   std::vector<MaterialOptions> materials;
   std::vector<BodyOptions> bodies;
   std::shared_ptr<const FieldFunction> body_force;  ///< acceleration [m/s^2]; null: none
+  LoadOptions loads;
   std::vector<MeasureOptions> measures;
+  std::vector<OutcomeOptions> outcomes;
+  StopOptions stop;
   OutputOptions output;
   std::vector<std::string> notes;  ///< remarks for the user (r_min: axis ignored in 3d, ...)
 };

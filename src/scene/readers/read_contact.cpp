@@ -12,20 +12,6 @@ constexpr ParameterInfo kFriction{"friction", "1", Range::non_negative, 0,
 constexpr ParameterInfo kPairFriction{"friction", "1", Range::non_negative, kRequired,
                                       "Coulomb coefficient of this pair"};
 
-/// Index of the body a node names, or -1 after a problem.
-int read_body_name(const Node& node, Reading& reading) {
-  const std::optional<std::string> name = read_word(node, reading.problems);
-  if (!name) return -1;
-  std::vector<std::string> known;
-  for (std::size_t b = 0; b < reading.scene.bodies.size(); ++b) {
-    known.push_back(reading.scene.bodies[b].name);
-    if (known.back() == *name) return static_cast<int>(b);
-  }
-  if (known.empty()) return -1;  // said already
-  report_unknown(node, "body", *name, known, reading.problems);
-  return -1;
-}
-
 /// `{between: [a, b], friction: 0.1}`.
 Node read_pair(const Node& item, Reading& reading) {
   ContactOptions& contact = reading.scene.contact;

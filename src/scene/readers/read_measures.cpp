@@ -11,6 +11,29 @@ namespace krater::scene {
 
 namespace {
 
+std::vector<std::string> body_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const BodyOptions& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+}  // namespace
+
+int read_body_name(const Node& node, Reading& reading) {
+  const std::vector<std::string> bodies = body_names(reading.scene);
+  const std::optional<std::string> word = read_word(node, reading.problems);
+  if (!word) return -1;
+  const auto found = std::find(bodies.begin(), bodies.end(), *word);
+  if (bodies.empty()) return -1;  // said already
+  if (found == bodies.end()) {
+    report_unknown(node, "body", *word, bodies, reading.problems);
+    return -1;
+  }
+  return static_cast<int>(found - bodies.begin());
+}
+
+namespace {
+
 constexpr ParameterInfo kFromLowerEnd{
     "from_lower_end", "m", Range::non_negative, kRequired,
     "distance from the body's lower end at the time of measuring"};
@@ -129,26 +152,6 @@ void read_face(Block& block, MeasureOptions& measure, bool along_z, Reading& rea
   block.record("face", string_node(side_name(frame, axis, side)));
 }
 
-std::vector<std::string> body_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const BodyOptions& body : scene.bodies) names.push_back(body.name);
-  return names;
-}
-
-/// Index of a body's name; -1 after a problem.
-int read_body(const Node& node, Reading& reading) {
-  const std::vector<std::string> bodies = body_names(reading.scene);
-  const std::optional<std::string> word = read_word(node, reading.problems);
-  if (!word) return -1;
-  const auto found = std::find(bodies.begin(), bodies.end(), *word);
-  if (bodies.empty()) return -1;  // said already
-  if (found == bodies.end()) {
-    report_unknown(node, "body", *word, bodies, reading.problems);
-    return -1;
-  }
-  return static_cast<int>(found - bodies.begin());
-}
-
 /// `body: rod` or `body: [projectile, plate]`.
 std::vector<int> read_bodies(Block& block, Reading& reading) {
   std::vector<int> indices;
@@ -158,7 +161,7 @@ std::vector<int> read_bodies(Block& block, Reading& reading) {
   if (list && node->items.empty()) block.fail(*node, "an empty list measures nothing");
   std::vector<Node> resolved;
   for (const Node& item : list ? node->items : std::vector<Node>{*node}) {
-    const int index = read_body(item, reading);
+    const int index = read_body_name(item, reading);
     if (index < 0) continue;
     if (std::find(indices.begin(), indices.end(), index) != indices.end())
       block.fail(item, quote(item.text) + " is listed twice");
@@ -240,7 +243,7 @@ void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
   }
   if (takes(kind, "target")) {
     const Node* node = block.require("target", "the body that is penetrated");
-    if (node) measure.target = read_body(*node, reading);
+    if (node) measure.target = read_body_name(*node, reading);
     if (measure.target >= 0) block.record("target", string_node(node->text));
     const std::vector<int>& bodies = measure.selection.bodies;
     if (std::find(bodies.begin(), bodies.end(), measure.target) != bodies.end())

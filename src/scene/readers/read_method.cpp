@@ -111,6 +111,7 @@ Node read_time(const Node* node, Reading& reading) {
     block.fail("min_step is longer than max_step");
   if (time.max_step > 0 && time.first_step > time.max_step)
     block.fail("first_step is longer than max_step");
+  if (const Node* stop = block.find("stop_when")) block.record("stop_when", *stop);
   return block.finish();
 }
 

@@ -39,11 +39,20 @@ void require_blocks(const Node& tree, Block& root) {
     if (!tree.find(key)) root.fail("missing key '" + std::string{key} + "'");
   }
   if (framed) return;
-  for (const char* key : {"title", "frame", "grid", "time", "method", "materials", "bodies",
-                          "contact", "body_force", "output", "measures", "references"}) {
+  for (const char* key :
+       {"title", "frame", "grid", "time", "method", "materials", "bodies", "contact", "body_force",
+        "output", "measures", "outcomes", "references"}) {
     root.find(key);
   }
   root.finish();
+}
+
+/// What the run is for: the fates of projectiles, and when it may end for them.
+void read_answers(Block& root, Reading& reading) {
+  root.record("outcomes", read_outcomes(root.find_block("outcomes"), reading));
+  const Node* time = root.find("time");
+  const Node* stop = time ? time->find("stop_when") : nullptr;
+  if (stop) read_stop(*stop, reading);
 }
 
 void read_blocks(Block& root, Reading& reading) {
@@ -57,6 +66,7 @@ void read_blocks(Block& root, Reading& reading) {
   read_body_force(root, reading);
   root.record("output", read_output(root.find("output"), reading));
   root.record("measures", read_measures(root.find("measures"), reading));
+  read_answers(root, reading);
   root.record("references", read_references(root.find("references"), reading));
 }
 

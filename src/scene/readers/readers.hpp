@@ -35,7 +35,13 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
 void check_rigid(Reading& reading);
 Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies
 Node read_measures(const Node* node, Reading& reading);
+/// `outcomes:` and `time.stop_when`, which may add one; after read_bodies.
+Node read_outcomes(const Node* node, Reading& reading);
+void read_stop(const Node& node, Reading& reading);
 Node read_references(const Node* node, Reading& reading);  ///< after read_measures
+
+/// Index of the body that a node names; -1 after a problem.
+int read_body_name(const Node& node, Reading& reading);
 
 /// A solid and its resolved block; a null solid after a problem.
 struct ReadSolid {

@@ -144,4 +144,27 @@ std::function<double(double)> make_time_function(const std::string& expression) 
   };
 }
 
+std::function<double(const std::vector<double>&)> make_table_function(
+    const std::string& expression, const std::vector<std::string>& names) {
+  struct Compiled {
+    std::vector<double> values;
+    mu::Parser parser;
+  };
+  const auto compiled = std::make_shared<Compiled>();
+  compiled->values.resize(names.size());
+  compiled->parser.DefineNameChars(
+      "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+  std::string known;
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  compile(compiled->parser, expression, known, [&](mu::Parser& parser) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].find('-') == std::string::npos) parser.DefineVar(names[i], &compiled->values[i]);
+    parser.DefineConst("pi", std::numbers::pi);
+  });
+  return [compiled](const std::vector<double>& values) {
+    compiled->values = values;
+    return compiled->parser.Eval();
+  };
+}
+
 }  // namespace krater

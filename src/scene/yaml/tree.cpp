@@ -18,8 +18,9 @@ constexpr std::array<const char*, 2> kDamageSettings{"coupling", "degrade_pressu
 /// Maps whose single member is a choice: naming another one replaces the first instead of joining
 /// it.
 bool is_choice(const std::string& key) {
-  static const std::array<const char*, 9> choices{
-      "eos", "strength", "damage", "model", "heating", "shape", "transfer", "path", "reference"};
+  static const std::array<const char*, 10> choices{"eos",       "strength", "damage",   "model",
+                                                   "heating",   "shape",    "transfer", "path",
+                                                   "reference", "stop_when"};
   static const std::array<const char*, 4> axes{"x_", "y_", "z_", "r_"};
   const bool side = key.size() == 5 && std::any_of(axes.begin(), axes.end(), [&](const char* axis) {
                       return key.compare(0, 2, axis) == 0;
@@ -38,6 +39,14 @@ bool chooses_another(const Node& base, const Node& over) {
   if (!is_choice(over.key) || base.items.empty()) return false;
   const std::vector<std::string> chosen = names(over);
   return chosen.size() == 1 && !names(base).empty() && base.find(chosen.front()) == nullptr;
+}
+
+/// A direction is given one way: the other goes when it comes.
+void drop_other_direction(Node& base, const Node& over) {
+  if (base.find("speed") == nullptr) return;
+  for (const auto& [mine, other] : {std::pair{"angle", "towards"}, std::pair{"towards", "angle"}})
+    if (over.find(mine))
+      std::erase_if(base.items, [&](const Node& item) { return item.key == other; });
 }
 
 void set_path(Node& node, const std::string& path) {
@@ -160,6 +169,7 @@ void overlay(Node& base, const Node& over) {
     base.file = over.file;
     base.line = over.line;
   }
+  drop_other_direction(base, over);
   for (const Node& item : over.items) {
     if (Node* existing = base.find(item.key)) {
       overlay(*existing, item);

@@ -24,4 +24,9 @@ std::shared_ptr<const FieldFunction> make_expression_field(
 /// A function of the time t alone (and pi). Throws InputError as above.
 std::function<double(double)> make_time_function(const std::string& expression);
 
+/// An expression of numbers by name, as `rod.kinetic_energy < 5 && time > 1e-5`; they are given in
+/// the order of `names`. Throws InputError as above.
+std::function<double(const std::vector<double>&)> make_table_function(
+    const std::string& expression, const std::vector<std::string>& names);
+
 }  // namespace krater
