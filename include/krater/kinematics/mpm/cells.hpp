@@ -43,17 +43,20 @@ struct CellSums {
       store(value + c, select(V > Pack(0.0), load(value + c) / V, Pack(0.0)));
     }
   }
-  /// The same with `mean_rate` for `value`; add_value() leaves the volumes as they are.
+  /// The same with `mean_rate` for `value`.
   KRATER_FORCE_INLINE CellSums second() const { return {volume, mean_rate}; }
-  KRATER_FORCE_INLINE void add_volume(const double* cells, Pack V) const {
-    alignas(64) double v[8];
+  /// V and V times both quantities, with one look at where each point lies.
+  KRATER_FORCE_INLINE void add(const double* cells, Pack V, Pack quantity, Pack rate) const {
+    alignas(64) double v[8], vq[8], vr[8];
     store(v, V);
-    for (int l = 0; l < kLanes; ++l) volume[static_cast<int>(cells[l])] += v[l];
-  }
-  KRATER_FORCE_INLINE void add_value(const double* cells, Pack V, Pack quantity) const {
-    alignas(64) double vq[8];
     store(vq, V * quantity);
-    for (int l = 0; l < kLanes; ++l) value[static_cast<int>(cells[l])] += vq[l];
+    store(vr, V * rate);
+    for (int l = 0; l < kLanes; ++l) {
+      const int c = static_cast<int>(cells[l]);
+      volume[c] += v[l];
+      value[c] += vq[l];
+      mean_rate[c] += vr[l];
+    }
   }
 };
 

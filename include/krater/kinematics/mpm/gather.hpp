@@ -169,22 +169,19 @@ KRATER_FORCE_INLINE void move_points(const GatherViews& view, const PointSums<Fr
   }
 }
 
-/// W of 8 points into their energy, but for what the mean over the cell adds (settle()). Where the
-/// cell averages, the first table of `cells` must hold its volumes.
+/// W of 8 points into their energy, but for what the mean over the cell adds (settle()); `v`: their
+/// specific volume. Returns the trace of the mean L.
 template <class Frame, class Configuration>
-KRATER_FORCE_INLINE void book_work(const GatherViews& view, const PointSums<Frame::dim>& n,
+KRATER_FORCE_INLINE Pack book_work(const GatherViews& view, const PointSums<Frame::dim>& n,
                                    const SweepSettings& s, const double* beta, const double* cell,
-                                   const CellSums& cells, int g) {
-  const Pack v = 1.0 / view.density(g);
+                                   Pack v, int g) {
   const auto L =
       mean_gradient<Frame, Configuration>(n.V, n.G, view.position(g, 0), reading(view.map), g);
   Pack own = (view.pressure(g) + view.viscous(g)) * L.trace;
-  if (s.average_cells) {
-    own = fnma(look_up(beta, cell), own, own);
-    cells.second().add_value(cell, view.mass(g) * v, L.trace);
-  }
+  if (s.average_cells) own = fnma(look_up(beta, cell), own, own);
   const Pack power = deviator_power<Frame>(view.stress, L, g) - own;
   view.energy.set(g, fma(s.dt * v, power, view.energy(g)));
+  return L.trace;
 }
 
 /// Where no mean of the cell is kept (APIC, XPIC) the loss on the way to the grid is taken pair by

@@ -82,19 +82,18 @@ void gather_nodes(GatherPass& pass) {
     const Alone alone = alone_points<D>(view, n, lw, g);
 
     note_velocity_fault<D>(patch, n, g);
+    const Pack v = 1.0 / view.density(g);
+    Pack trace = 0.0, rate = 0.0;
     if constexpr (T::velocity) {
-      book_work<Frame, Configuration>(view, n, s, patch.beta.data(), cell, cells, g);
+      rate = book_work<Frame, Configuration>(view, n, s, patch.beta.data(), cell, v, g);
       sums.owes = sums.owes | (view.carried(g) < Pack(0.0));
     }
     if constexpr (T::strain) {
-      const Pack trace =
-          store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s.dt, g);
-      view.extra_dilatation.set(
-          g, trace);  // tr L for now; average_dilatation() turns it into the increment
-      if (s.average_cells) cells.add_value(cell, view.mass(g) / view.density(g), trace);
+      trace = store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s.dt, g);
+      view.extra_dilatation.set(g, trace);  // tr L for now, see average_dilatation()
       if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
     }
-    if (s.average_cells) cells.add_volume(cell, view.mass(g) / view.density(g));
+    if (s.average_cells) cells.add(cell, view.mass(g) * v, trace, rate);
     Pack old[D];
     for (int a = 0; a < D; ++a) old[a] = view.velocity(g, a);
     if constexpr (T::velocity) book_motion<D, Affine>(pass, n, lw, alone.silent, g);
@@ -141,16 +140,12 @@ bool balance_heat(Patch& patch, const BodyKernelData& body, const SweepSettings&
   double* records = w.cells + kCellLedger;
   const ReadView carried{patch.points.data() + c.carried, c.stride};
   const ReadView mass{patch.points.data() + c.mass, c.stride};
-  for (int i = 0; i < kBlockNodes; ++i) {
-    records[8 * i + Cell::taken] = 0;
-    records[8 * i + Cell::carried] = 0;
-  }
   for (int g = 0; owes && g < patch.points.groups(); ++g)
     if (any(carried(g) < Pack(0.0)))
       add_slot(records, Cell::carried, w.pressures + kLanes * g, mass(g) * carried(g));
-  bool takes = false;
-  for (double* r = records; r < records + 8 * kBlockNodes; r += 8)
-    takes = takes || r[Cell::heat] * r[Cell::mass] + r[Cell::carried] < 0;
+  bool takes = patch.result.heat_taken < 0;
+  for (double* r = records; owes && !takes && r < records + 8 * kBlockNodes; r += 8)
+    takes = r[Cell::heat] * r[Cell::mass] + r[Cell::carried] < 0;
   patch.result.carried = patch.result.carriers = 0;
   if (!takes && !owes) return false;
   if (takes) {
@@ -160,7 +155,10 @@ bool balance_heat(Patch& patch, const BodyKernelData& body, const SweepSettings&
       add_slot(records, Cell::taken, w.pressures + kLanes * g, mass(g) * heat(g));
   }
   for (double* r = records; r < records + 8 * kBlockNodes; r += 8) {
-    if (!(r[Cell::mass] > 0)) continue;
+    if (!(r[Cell::heat] < 0 || r[Cell::carried] < 0)) {
+      r[Cell::taken] = 0;
+      continue;
+    }
     const double due = r[Cell::heat] * r[Cell::mass] + r[Cell::carried], there = r[Cell::taken];
     r[Cell::taken] = r[Cell::carried] = 0;
     r[Cell::heat] = due / r[Cell::mass];

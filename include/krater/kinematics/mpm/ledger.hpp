@@ -62,43 +62,66 @@ struct CellLedger {
     for (int l = 0; l < kLanes; ++l) slots[l] = load(records + 8 * static_cast<int>(cells[l]));
     transpose8(slots);
   }
-  /// Means and heat per mass of all cells. `base`: v_0.
+  /// Means and heat per mass of all cells, eight at a time. `base`: v_0.
   void close(const SweepSettings& s, const PatchOrigin& origin, const double* base,
              PatchResult& result) const {
-    result.heat_given = result.heat_taken = 0;
+    const bool cut = s.gamma > 0 && holds_cut_cells(s, origin);
+    Pack given = 0.0, taken_back = 0.0;
     result.cut_impulse = {};
-    for (int i = 0; i < kBlockNodes; ++i) {
-      double* c = records + 8 * i;
-      if (!(c[mass] > 0)) continue;
-      const unsigned odd = s.gamma > 0 ? odd_components(s, origin, i) : 0;
-      double across = 0;
+    for (int first = 0; first < kBlockNodes; first += kLanes) {
+      Pack c[8];
+      for (int k = 0; k < kLanes; ++k) c[k] = load(records + 8 * (first + k));
+      transpose8(c);
+      const Pack M = c[mass], inverse = select(M > Pack(0.0), 1.0 / M, Pack(0.0));
+      const Pack odd = cut ? odd_components(s, origin, first) : Pack(0.0);
+      Pack across = 0.0;
       for (int a = 0; a < Dim; ++a) {
-        double& R = c[residual + a];
-        if ((odd >> a & 1U) != 0) {
-          across -= R * base[a];
-          result.cut_impulse[static_cast<unsigned>(a)] -= s.gamma * R;
-          R = 0;
-        } else {
-          R /= c[mass];
-          across += R * (c[velocity + a] - 0.5 * s.gamma * R * c[mass]);
-        }
+        const Mask flips = has_bit(odd, a);
+        const Pack R = select(flips, Pack(0.0), c[residual + a] * inverse),
+                   lost = select(flips, c[residual + a], Pack(0.0));
+        across = fma(R, fnma(0.5 * s.gamma * M, R, c[velocity + a]), fnma(lost, base[a], across));
+        if (cut) result.cut_impulse[static_cast<unsigned>(a)] -= s.gamma * sum(lost);
+        c[residual + a] = R;
       }
-      const double E = c[heat] - s.gamma * across;
-      (E < 0 ? result.heat_taken : result.heat_given) += E;
-      c[heat] = E / c[mass];
+      const Pack E = fnma(Pack(s.gamma), across, c[heat]);
+      given += max(E, Pack(0.0));
+      taken_back += min(E, Pack(0.0));
+      c[heat] = E * inverse;
+      c[taken] = c[carried] = 0.0;
+      transpose8(c);
+      for (int k = 0; k < kLanes; ++k) store(records + 8 * (first + k), c[k]);
     }
+    result.heat_given = sum(given);
+    result.heat_taken = sum(taken_back);
   }
 
  private:
-  /// Components of the velocity of cell `i` whose mean with its image beyond a side is zero.
-  static unsigned odd_components(const SweepSettings& s, const PatchOrigin& origin, int i) {
-    unsigned odd = 0;
-    for (int a = Dim - 1; a >= 0; --a, i /= block_edge(Dim)) {
-      const int cell = static_cast<int>(origin.first[a]) + i % block_edge(Dim);
-      for (const CutCells& side : s.cut[static_cast<unsigned>(a)])
-        if (side.cell == cell) odd |= side.odd;
+  static bool holds_cut_cells(const SweepSettings& s, const PatchOrigin& origin) {
+    for (int a = 0; a < Dim; ++a)
+      for (const CutCells& side : s.cut[static_cast<unsigned>(a)]) {
+        const int at = side.cell - static_cast<int>(origin.first[a]);
+        if (side.odd != 0 && at >= 0 && at < block_edge(Dim)) return true;
+      }
+    return false;
+  }
+  /// Bit per component of the velocity whose mean with its image beyond a side is zero, of the
+  /// cells from `first` on.
+  static Pack odd_components(const SweepSettings& s, const PatchOrigin& origin, int first) {
+    alignas(64) double out[kLanes];
+    for (int k = 0; k < kLanes; ++k) {
+      unsigned odd = 0;
+      for (int a = Dim - 1, rest = first + k; a >= 0; --a, rest /= block_edge(Dim)) {
+        const int cell = static_cast<int>(origin.first[a]) + rest % block_edge(Dim);
+        for (const CutCells& side : s.cut[static_cast<unsigned>(a)])
+          if (side.cell == cell) odd |= side.odd;
+      }
+      out[k] = odd;
     }
-    return odd;
+    return load(out);
+  }
+  static Mask has_bit(Pack bits, int bit) {
+    const double weight = 1U << static_cast<unsigned>(bit);
+    return floor(bits * (0.5 / weight)) * 2.0 < floor(bits * (1 / weight));
   }
 };
 
