@@ -243,11 +243,17 @@ void Simulation::step(double until) {
   if (walls_act_on_points()) audit_.book_point_walls(wall_force, taken, !scene_.body_force);
   clock_.advance(asked, taken, until);
   limit_ = step_->limit();
-  watch(*this, warnings_);
   try {
-    energy_watch_.check(audit_);
+    energy_watch_.check(audit_, taken);
   } catch (const EnergyError& e) {
     fail_energy(e);
+  }
+  watch(*this, warnings_);
+  try {
+    EnergyWatch::check_error(audit_, scene_.time.energy_error, time(), done());
+  } catch (const EnergyError& e) {  // the state is whole: its checkpoint may go on regardless
+    throw NumericalError(fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(),
+                                     time(), steps()));
   }
 }
 
