@@ -63,3 +63,12 @@ def energy_error():
     check(last == {name: values[-1] for name, values in history("stopped").items()}, "with the same bits", last)
     check(abs(last["energy_error_fraction"]) > 0.04, "and ends with the error it was stopped for",
           last["energy_error_fraction"])
+
+
+@fault("piston-start", "a body that a piston sets in motion is judged when its energy has come")
+def piston_start():
+    done = krater("run", scene("energy"), "-o", "out", "-j", 1, "--quiet")
+    check(done.returncode == 0, "it runs to its end", done.stderr)
+    error = history("out")["energy_error_fraction"]
+    check(max(error[:5]) > 0.3, "the first layer takes half", max(error[:5]))
+    check(error[-1] < 0.01, "a hundredth at the end", error[-1])
