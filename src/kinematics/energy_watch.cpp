@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "krater/kinematics/energy_error.hpp"
+
 namespace krater {
 
 namespace {
@@ -50,12 +52,13 @@ void EnergyWatch::check_nodes(const Audit& audit, double kinetic, const StepWork
       kinetic, in, source.name, source.gain, source.remedy));
 }
 
-void EnergyWatch::check(Audit& audit) const {
+void EnergyWatch::check(Audit& audit, double dt) const {
   for_each_entry(audit, [](const char* name, double value) {
     if (!std::isfinite(value))
       throw EnergyError(fmt::format("{} is {}: the account of the energy is broken", name, value));
   });
   const double in = came_in(audit), now = audit.energy();
+  audit.peak_energy_time += audit.peak_energy * dt;  // what comes now has not been there
   audit.peak_energy = std::max(audit.peak_energy, in);
   const double most = kMostGain * audit.peak_energy;
   if (audit.internal < -std::max(most, kMostGain * audit.kinetic))
@@ -73,6 +76,13 @@ void EnergyWatch::check(Audit& audit) const {
       "{:.4g} "
       "J came in (greatest so far {:.4g} J); largest gain: {} ({:.4g} J); try {}",
       now, audit.kinetic, in, audit.peak_energy, source.name, source.gain, source.remedy));
+}
+
+void EnergyWatch::check_error(const Audit& audit, double allowed, double time, bool last) {
+  if (allowed == 0 || audit.error_fraction() <= allowed) return;
+  if (!last && audit.peak_energy_time < kSettled * audit.peak_energy * time) return;
+  throw EnergyError(describe_energy_error(audit, allowed) +
+                    "; time.energy_error: off, or a greater share, goes on regardless");
 }
 
 }  // namespace krater

@@ -7,41 +7,20 @@
 
 #include <fmt/format.h>
 
+#include "krater/kinematics/energy_error.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace krater {
 
 namespace {
 
-constexpr double kEnergyError = 0.01;  // of the energy at the start
-
-/// The largest part of what is not physical, and what would lower it.
-std::string largest_error(const Audit& a) {
-  const double lost = std::abs(a.residual(a.kinetic, a.internal)),
-               heat = std::abs(a.numerical_heat), owed = std::abs(a.carried);
-  if (heat >= std::max(lost, owed))
-    return fmt::format(
-        "most of it numerical_heat ({:+.4g} J), dissipation that a material whose "
-        "pressure does not know its energy cannot feel; a smaller grid.cell lowers "
-        "it, an equation of state makes it heat",
-        a.numerical_heat);
-  if (owed >= lost)
-    return fmt::format(
-        "most of it carried_energy ({:+.4g} J), heat that matter was too cold to "
-        "give; a viscosity block or a smaller time.cfl lowers it",
-        a.carried);
-  return fmt::format("most of it unaccounted ({:+.4g} J): please report this scene",
-                     -a.residual(a.kinetic, a.internal));
-}
+constexpr double kEnergyError = 0.01;  // of the energy in the scene
 
 void watch_energy(const Simulation& sim, Warnings& warnings) {
   const Audit& a = sim.audit();
-  const double error = a.error_fraction();
-  const bool wrong = !(std::abs(error) <= kEnergyError);
-  if (!wrong) return warnings.judge("energy_error", false, sim.time(), "");
-  warnings.judge("energy_error", true, sim.time(),
-                 fmt::format("energy error {:.2f} % (energy_error_fraction; {:g} % allowed): {}",
-                             100 * error, 100 * kEnergyError, largest_error(a)));
+  const bool wrong = !(a.error_fraction() <= kEnergyError);
+  warnings.judge("energy_error", wrong, sim.time(),
+                 wrong ? describe_energy_error(a, kEnergyError) : "");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ SCHEMES = {
     "flip": (["method.transfer=flip"], 0.03, CLOSED),
     "apic": (["method.transfer=apic"], 0.05, CLOSED),
     "xpic 2": (["method.transfer={xpic: {order: 2}}"], 0.10, CLOSED),
-    "xpic 4": (["method.transfer={xpic: {order: 4}}"], 0.25, CLOSED),
+    "xpic 4": (["method.transfer={xpic: {order: 4}}", "time.energy_error=off"], 0.25, CLOSED),
     "flip, musl": (["method.transfer=flip", "method.update=musl"], 0.02, CLOSED),
     "flip, usf": (["method.transfer=flip", "method.update=usf"], 0.02, CLOSED),
     "apic, musl": (["method.transfer=apic", "method.update=musl"], 0.05, CLOSED),

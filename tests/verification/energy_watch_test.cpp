@@ -57,19 +57,20 @@ TEST_SUITE("verification") {
     audit.initial_kinetic = audit.kinetic = audit.peak_energy = 100;
     for (const double loss : {10.0, 90.0}) {  // losses are reported, not judged
       audit.kinetic = 100 - loss;
-      CHECK_NOTHROW(watch.check(audit));
+      CHECK_NOTHROW(watch.check(audit, 1));
     }
     audit.kinetic = 80, audit.internal = 65, audit.transfer_gain = -45;
-    CHECK_NOTHROW(watch.check(audit));
+    CHECK_NOTHROW(watch.check(audit, 1));
     audit.internal = 95;  // 75 J too many, more than half of the greatest so far, 145 J
-    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("transfer between points and grid"),
-                         EnergyError);
+    CHECK_THROWS_WITH_AS(watch.check(audit, 1),
+                         doctest::Contains("transfer between points and grid"), EnergyError);
     audit.external_work = 80;  // it was work from outside
-    CHECK_NOTHROW(watch.check(audit));
+    CHECK_NOTHROW(watch.check(audit, 1));
     audit.contact_heat = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("contact_heat is nan"), EnergyError);
+    CHECK_THROWS_WITH_AS(watch.check(audit, 1), doctest::Contains("contact_heat is nan"),
+                         EnergyError);
     audit.contact_heat = 0, audit.wall_impulse[1] = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_WITH_AS(watch.check(audit), doctest::Contains("wall_impulse_1 is inf"),
+    CHECK_THROWS_WITH_AS(watch.check(audit, 1), doctest::Contains("wall_impulse_1 is inf"),
                          EnergyError);
     audit.wall_impulse = {};
     CHECK_NOTHROW(watch.check_nodes(audit, 250, {0, 0}));
@@ -77,6 +78,60 @@ TEST_SUITE("verification") {
     CHECK_NOTHROW(watch.check_nodes(audit, 300, {100, 0}));
     CHECK_THROWS_AS(watch.check_nodes(audit, std::numeric_limits<double>::quiet_NaN(), {0, 0}),
                     EnergyError);
+  }
+
+  TEST_CASE("energy watch: no entry of the account may be other than a number") {
+    const GridGeometry geometry{2, 1, 1, {}, {4, 4, 0}};
+    const BoundaryConditions open{};
+    const BoundarySet sides{geometry, open};
+    const EnergyWatch watch{sides};
+    for (std::size_t i = 0; i < audit_entries(); ++i) {
+      Audit audit;
+      audit.initial_kinetic = audit.kinetic = audit.peak_energy = 100;
+      std::string broken;
+      std::size_t at = 0;
+      for_each_entry(audit, [&](const char* name, double& value) {
+        if (at++ != i) return;
+        value = std::numeric_limits<double>::quiet_NaN();
+        broken = name;
+      });
+      CAPTURE(broken);
+      CHECK_THROWS_WITH_AS(watch.check(audit, 1), doctest::Contains((broken + " is nan").c_str()),
+                           EnergyError);
+    }
+  }
+
+  TEST_CASE("energy watch: what is not physical ends a run when its energy has come") {
+    Audit audit;
+    audit.peak_energy = 100;
+    audit.peak_energy_time = 100;  // all of it for 1 s
+    audit.initial_kinetic = 100, audit.kinetic = 80, audit.internal = 20;
+    audit.contact_heat = 10, audit.wall_heat = 3, audit.transfer_loss = 20;
+    const auto check = [&audit](double time, bool last) {
+      EnergyWatch::check_error(audit, 0.1, time, last);
+    };
+    CHECK_NOTHROW(check(1, true));  // heat of matter that knows its energy is physical
+    audit.numerical_heat = -9;
+    CHECK_NOTHROW(check(1, true));
+    audit.numerical_heat = -11;
+    CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("numerical_heat (-11 J)"), EnergyError);
+    CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("transfer between points and grid"),
+                         EnergyError);
+    CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("time.energy_error"), EnergyError);
+    audit.transfer_gain = -12;
+    CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("mostly of contact"), EnergyError);
+    CHECK_NOTHROW(check(2, false));  // the energy came half-way: wait
+    CHECK_THROWS_AS(check(2, true), EnergyError);
+    audit.numerical_heat = 30, audit.friction_work = -25;  // friction is physical
+    CHECK_NOTHROW(check(2, true));
+    audit.numerical_heat = -11;
+    audit.carried = -12;
+    CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("most of it carried_energy (-12 J)"),
+                         EnergyError);
+    audit.kinetic = 60;
+    CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("most of it energy_residual (-20 J)"),
+                         EnergyError);
+    CHECK_NOTHROW(EnergyWatch::check_error(audit, 0, 1, true));
   }
 
   TEST_CASE("time step: the point that limits it is named by its id, whoever migrates") {

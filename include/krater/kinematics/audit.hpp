@@ -8,8 +8,10 @@
 /// known by its cause: contact, walls, and the transfer between points and grid, which also takes
 /// heat back where it made motion. Heat that could not be taken back without cooling matter below
 /// absolute zero is carried by its points as a debt, part of their internal energy.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "krater/core/batch_types.hpp"
 
@@ -51,10 +53,11 @@ struct Audit {
   double deepest_reflection = 0;                    ///< [cells]
   double failures = 0, snap_backs = 0, spalls = 0;  ///< events
   double new_references = 0;                        ///< events
-  double contact_pairs = 0;  ///< pairs of fields at nodes that pushed in the last step
-  double wall_columns = 0;   ///< columns in contact in the last step
-  double step_external = 0;  ///< work of body forces in the step under way [J]
-  double peak_energy = 0;    ///< greatest kinetic + internal + removed energy so far [J]
+  double contact_pairs = 0;     ///< pairs of fields at nodes that pushed in the last step
+  double wall_columns = 0;      ///< columns in contact in the last step
+  double step_external = 0;     ///< work of body forces in the step under way [J]
+  double peak_energy = 0;       ///< greatest kinetic + internal + removed energy so far [J]
+  double peak_energy_time = 0;  ///< its integral over time [J s]
 
   /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
   /// included.
@@ -78,18 +81,22 @@ struct Audit {
     return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) -
            external_work - wall_work + removed_energy + rigid_loss;
   }
-  /// Energy at the start, or the work of loads and sides where a scene starts without any [J].
-  double scale() const {
-    const double start = initial_kinetic + initial_internal;
-    return start > 0 ? start : std::abs(external_work) + std::abs(wall_work);
+  /// What is not physical: energy that is missing or came from nowhere, heat that the pressure of
+  /// its matter cannot feel (but for friction between bodies), heat that is owed, and the steps of
+  /// turning rigid bodies. Heat of transfer, contact and walls in matter that knows its energy is
+  /// none of it: behind a shock the balances of mass, momentum and energy say how much there must
+  /// be, however it was made.
+  std::array<double, 4> unphysical() const {
+    const double unfelt =
+        numerical_heat > 0 ? std::max(0.0, numerical_heat + friction_work) : numerical_heat;
+    return {residual(kinetic, internal), unfelt, carried, rigid_loss};
   }
-  /// What is not physical, by scale(): energy that is missing or came from nowhere, heat that
-  /// nothing feels, heat that is owed. All of it as magnitudes.
+  /// All of it as magnitudes, by the greatest energy that was in the scene so far: at the start, or
+  /// brought by loads and sides.
   double error_fraction() const {
-    if (scale() == 0) return 0;
-    return (std::abs(residual(kinetic, internal)) + std::abs(numerical_heat) + std::abs(carried) +
-            std::abs(rigid_loss)) /
-           scale();
+    double sum = 0;
+    for (const double part : unphysical()) sum += std::abs(part);
+    return peak_energy > 0 ? sum / peak_energy : 0.0;
   }
 };
 
@@ -140,6 +147,7 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("wall_columns", a.wall_columns);
   visit("step_external", a.step_external);
   visit("peak_energy", a.peak_energy);
+  visit("peak_energy_time", a.peak_energy_time);
 }
 
 /// None is forgotten.

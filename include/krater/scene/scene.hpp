@@ -33,9 +33,10 @@ struct TimeOptions {
   std::string where;
   double end = 0;  ///< [s]
   double cfl = 0.5;
-  double max_step = 0;    ///< [s], 0: none
-  double min_step = 0;    ///< [s], 0: 1e-6 of the first step
-  double first_step = 0;  ///< [s], 0: automatic
+  double max_step = 0;        ///< [s], 0: none
+  double min_step = 0;        ///< [s], 0: 1e-6 of the first step
+  double first_step = 0;      ///< [s], 0: automatic
+  double energy_error = 0.1;  ///< a greater share that is not physical is a failure; 0: off
 };
 
 /// A law named in the scene with its parameters in declared order.

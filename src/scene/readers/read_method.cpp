@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "krater/materials/catalogue.hpp"
@@ -17,6 +18,10 @@ constexpr ParameterInfo kMaxStep{"max_step", "s", Range::non_negative, 0,
 constexpr ParameterInfo kMinStep{"min_step", "s", Range::non_negative, 0,
                                  "a shorter time step is a failure, 0: 1e-6 of the first"};
 constexpr ParameterInfo kFirstStep{"first_step", "s", Range::non_negative, 0, "0: automatic"};
+
+constexpr ParameterInfo kEnergyError{
+    "energy_error", "1", Range::positive, 0.1,
+    "greatest share of the energy that may be unphysical before the run fails, or off"};
 
 constexpr ParameterInfo kJitter{"jitter", "1", Range::fraction, 0,
                                 "greatest random shift of a point, in point spacings"};
@@ -71,6 +76,19 @@ Node read_worded(const Node* node, const std::string& key, const Words<T>& words
   return resolved;
 }
 
+/// A share, or `off`.
+double read_energy_error(Block& block) {
+  const Node* node = block.find(kEnergyError.key);
+  const bool word = node != nullptr && node->kind == Node::Kind::scalar && !node->text.empty() &&
+                    std::isalpha(static_cast<unsigned char>(node->text.front())) != 0;
+  if (!word) return block.number(kEnergyError);
+  if (node->text != "off")
+    block.fail(*node, "must be a share of the energy (0.1 is the default) or off, found " +
+                          quote(node->text));
+  block.record(kEnergyError.key, string_node("off"));
+  return 0;
+}
+
 Node read_transfer(const Node* node, Reading& reading) {
   MethodOptions& method = reading.scene.method;
   const Words<Transfer> words{{"tflip", Transfer::tflip},
@@ -107,6 +125,7 @@ Node read_time(const Node* node, Reading& reading) {
   time.max_step = block.number(kMaxStep);
   time.min_step = block.number(kMinStep);
   time.first_step = block.number(kFirstStep);
+  time.energy_error = read_energy_error(block);
   if (time.max_step > 0 && time.min_step > time.max_step)
     block.fail("min_step is longer than max_step");
   if (time.max_step > 0 && time.first_step > time.max_step)
