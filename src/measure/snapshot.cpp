@@ -28,8 +28,9 @@ const std::vector<std::string>& vector_names(Frame f) {
 /// Columns that serve the method, not the user.
 bool is_internal(const char* name) {
   static const std::set<std::string> names{
-      "id",     "position",      "affine_velocity",   "shock_indicator",  "half_width",
-      "domain", "grid_velocity", "body_acceleration", "deviatoric_stress"};
+      "id",       "position",      "affine_velocity",   "shock_indicator",   "half_width",
+      "domain",   "grid_velocity", "body_acceleration", "deviatoric_stress", "load_share",
+      "load_unit"};
   return names.contains(name);
 }
 
@@ -216,6 +217,8 @@ Json audit_json(const Simulation& sim) {
   j["plastic_work"] = Json::of(a.plastic_work);
   j["viscous_work"] = Json::of(a.viscous_work);
   j["external_work"] = Json::of(a.external_work);
+  j["load_work"] = Json::of(a.load_work);
+  j["damping_work"] = Json::of(a.damping_work);
   j["wall_work"] = Json::of(a.wall_work);
   j["wall_heat"] = Json::of(a.wall_heat);
   j["contact_heat"] = Json::of(a.contact_heat);

@@ -11,6 +11,7 @@
 #include "krater/geometry/seeds/thickness.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
 #include "krater/materials/catalogue.hpp"
+#include "krater/points/load_fields.hpp"
 #include "krater/simulation/material_plan.hpp"
 
 namespace krater {
@@ -76,6 +77,7 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   declare_points(method,
                  {.density = material_->density,
                   .loaded = scene.body_force != nullptr,
+                  .face_loads = !loads_of(scene, index).empty(),
                   .walls = has_wall(scene),
                   .reference_position = wants(scene, field::ReferencePosition::info),
                   .deformation = wants(scene, field::DeformationGradient::info)},
@@ -225,6 +227,11 @@ void Body::make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
       }
     }
   }
+  const std::vector<int> loads = loads_of(scene, static_cast<int>(options_ - scene.bodies.data()));
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    if (lies_on_face(scene, scene.loads.faces[static_cast<std::size_t>(loads[k])], *options_->solid,
+                     seed.x))
+      set(field::LoadShare::info, static_cast<int>(k), 1.0);
   for (int k = 0; k < 9; k += 4) set(field::DeformationGradient::info, k, 1.0);
 }
 

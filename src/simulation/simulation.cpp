@@ -9,6 +9,7 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/kinematics/mpm/columns.hpp"
 
 namespace krater {
 
@@ -95,15 +96,27 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) fields.push_back(own_field(b));
     grid_.set_fields(std::move(fields));
   }
+  loads_ = make_loads();
   step_ = std::make_unique<MpmStep>(
       scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
-                                   kernel_data_, audit_});
+                                   kernel_data_, audit_, *loads_});
   place_rigid_bodies();
   choose_first_step();
   const Totals start = totals();
   audit_.kinetic = audit_.initial_kinetic = start.kinetic;
   audit_.internal = audit_.initial_internal = start.internal;
   audit_.peak_energy = audit_.energy();
+}
+
+std::unique_ptr<NodeLoads> Simulation::make_loads() {
+  std::vector<LoadColumns> columns;
+  std::vector<bool> rigid;
+  for (const auto& body : bodies_) {
+    columns.push_back(load_columns(body->layout()));
+    rigid.push_back(body->options().rigid());
+  }
+  return std::make_unique<NodeLoads>(scene_.loads, grid_, kernel_data_, std::move(columns),
+                                     std::move(rigid));
 }
 
 void Simulation::place_rigid_bodies() {
@@ -223,6 +236,7 @@ void Simulation::step(double until) {
   const double asked = next_step(until);
   rigid_.set_time(time());
   if (boundary_.set_time(time())) step_->relink();
+  loads_->set_time(time());
   if (scene_.body_force) apply_body_force();
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;
@@ -241,7 +255,8 @@ void Simulation::step(double until) {
     deliver(grid_, kernel_data_);
     throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time(), steps()));
   }
-  if (walls_act_on_points()) audit_.book_point_walls(wall_force, taken, !scene_.body_force);
+  if (walls_act_on_points())
+    audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
   limit_ = step_->limit();
   try {

@@ -42,8 +42,9 @@ struct Audit {
   double friction_work = 0;  ///< of tangential impulses, negative [J]
   double rigid_loss = 0;     ///< of turning rigid bodies, by the steps of their turn [J]
   double wall_heat = 0;      ///< what sides of the domain took from motion [J]
-  double external_work = 0;  ///< of body forces and driven rigid bodies [J]
-  double wall_work = 0;      ///< of sides of the domain that move, from outside [J]
+  double external_work = 0;  ///< of body forces, loads, damping and driven rigid bodies [J]
+  double load_work = 0, damping_work = 0;  ///< of these, of loads on faces and of damping [J]
+  double wall_work = 0;                    ///< of sides of the domain that move, from outside [J]
   double removed_energy = 0, removed_mass = 0, removed_points = 0;
   double removed_failed = 0;  ///< of the removed points, those removed by failure
   std::array<double, 3> removed_momentum{}, wall_impulse{};
@@ -119,6 +120,8 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("rigid_loss", a.rigid_loss);
   visit("wall_heat", a.wall_heat);
   visit("external_work", a.external_work);
+  visit("load_work", a.load_work);
+  visit("damping_work", a.damping_work);
   visit("wall_work", a.wall_work);
   visit("removed_energy", a.removed_energy);
   visit("removed_mass", a.removed_mass);

@@ -71,6 +71,11 @@ RigidOptions rigid_options(const Scene& scene, const Body& body, int index);
 /// "moves along x, z; turns about y", for `krater check`.
 std::string describe_motion(Frame frame, const RigidOptions& options);
 
+/// The loads on a body's faces, in the order of its marks.
+std::vector<int> loads_of(const Scene& scene, int body);
+/// A point of the body belongs to the face of a load.
+bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, const Triple& x);
+
 /// The domain of a scene as a box in grid axes.
 Box domain_box(const Scene& scene);
 /// Some side of the domain is a unilateral wall.

@@ -88,6 +88,7 @@ class Simulation {
       const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
 
  private:
+  std::unique_ptr<NodeLoads> make_loads();
   void place_points();
   void place_rigid_bodies();
   void save_body(int body, Checkpoint& out) const;
@@ -115,6 +116,7 @@ class Simulation {
   EnergyWatch energy_watch_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   Audit audit_;
+  std::unique_ptr<NodeLoads> loads_;
   std::unique_ptr<MpmStep> step_;
   StepClock clock_;
   TimeStepLimit limit_;  ///< of the next step

@@ -2,6 +2,7 @@
 #include "krater/kinematics/mpm/columns.hpp"
 
 #include "krater/points/ledger_fields.hpp"
+#include "krater/points/load_fields.hpp"
 
 namespace krater {
 
@@ -40,6 +41,10 @@ void declare_points(const MethodOptions& m, const PointNeeds& needs, Layout& lay
   if (needs.loaded || (fixed && needs.walls)) layout.state<field::BodyAcceleration>(0, kMethod);
   if (needs.loaded || needs.reference_position) layout.state<field::ReferencePosition>(0, kMethod);
   if (needs.deformation) layout.state<field::DeformationGradient>(0, kMethod);
+  if (needs.face_loads) {
+    layout.state<field::LoadShare>(0, kMethod);
+    layout.state<field::LoadUnit>(1, kMethod);
+  }
   layout.local_output<field::StepGradient>(kMethod);
   layout.local_output<field::ExtraDilatation>(kMethod);
 }
@@ -57,6 +62,10 @@ void declare_rigid_points(const MethodOptions& m, double density, Layout& layout
   declare_body(density, layout);
   layout.state<field::ReferencePosition>(0, kMethod);
   if (m.shape == Shape::gimp) layout.state<field::HalfWidth>(0, kMethod);
+}
+
+LoadColumns load_columns(const Layout& layout) {
+  return {layout.optional<field::LoadShare>().offset, layout.optional<field::LoadUnit>().offset};
 }
 
 PointColumns point_columns(const Layout& layout, bool removes) {

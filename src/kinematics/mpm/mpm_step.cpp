@@ -47,10 +47,12 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
       velocity_from_kept_{parts.bodies},
       position_as_velocity_{parts.bodies},
       audit_{parts.audit},
+      loads_{parts.loads},
       energy_watch_{parts.boundary},
-      loaded_{std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
-        return b.columns.body_acceleration >= 0;
-      })} {
+      loaded_{parts.loads.any() ||
+              std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
+                return b.columns.body_acceleration >= 0;
+              })} {
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
   for (BodyKernelData& body : position_as_velocity_) {
@@ -72,6 +74,7 @@ double MpmStep::force(double dt) {
   audit_.step_external = 0;  // of the question before, if there was one
   if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
   if (method_.reference != Reference::current) measure_gaps();
+  if (loads_.any()) loads_.collect(plain_, settings(dt), [this] { return scratch(); });
   particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
   grid_kinetic_ = momentum(dt, 1);           // v- = p/m, v+ = v- + dt f/m
   begin_rigid(dt, grid_kinetic_);
@@ -80,7 +83,9 @@ double MpmStep::force(double dt) {
 
 void MpmStep::meet(double dt) {
   if (method_.transfer == Transfer::xpic) note_forces();
+  if (loads_.any()) loads_.drive(dt);
   constraints_ = constrain();
+  if (loads_.any()) book_loads(dt);
   account_folds(dt);
   if (method_.transfer == Transfer::xpic) {
     filter_velocity(constraints_.walls.impulse);
@@ -88,6 +93,13 @@ void MpmStep::meet(double dt) {
     write_node_work();
   }
   watch_energy();
+}
+
+void MpmStep::book_loads(double dt) {
+  const LoadWork work = loads_.work(dt);
+  audit_.load_work += work.faces;
+  audit_.damping_work += work.damping;
+  audit_.step_external += work.faces + work.damping;
 }
 
 void MpmStep::move(double dt) {
@@ -234,20 +246,22 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
 double MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
-  const bool fluids = !fluid_patches_.empty();
+  const bool fluids = !fluid_patches_.empty(), loads = loads_.any() && force_share > 0;
   for_each(grid_.node_blocks().size(), [&](std::size_t n) {
     NodeBlock& block = grid_.node_blocks()[n];
     if (asleep(block)) return;
     kernels_.sum_tiles(grid_, block);
-    if (!block.at_boundary && !fluids) kernels_.momentum(block, s);
+    if (!block.at_boundary && !fluids && !loads) kernels_.momentum(block, s);
   });
   if (fluids) {
     if (force_share > 0 || method_.update == Update::usf) collect_pressure(settings(dt));
     if (force_share > 0) add_pressure_force(settings(dt));
+  }
+  if (loads) loads_.add_forces(dt, node_settings_.smallest_mass);
+  if (fluids || loads)
     for_each(grid_.node_blocks().size(), [&](std::size_t n) {
       if (!grid_.node_blocks()[n].at_boundary) kernels_.momentum(grid_.node_blocks()[n], s);
     });
-  }
   lap(Phase::nodes);
   boundary_.fold();
   for_each(boundary_blocks_.size(),

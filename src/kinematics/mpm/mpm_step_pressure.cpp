@@ -6,6 +6,7 @@
 #include <array>
 
 #include "krater/core/parallel.hpp"
+#include "krater/grid/overlaps.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
 
 namespace krater {
@@ -27,26 +28,6 @@ bool is_folded_ghost(const GridGeometry& g, const BoundaryConditions& conditions
     if (conditions[axis][index > 0 ? 1 : 0].folds()) return true;
   }
   return false;
-}
-
-/// By corner of a tile and node of the block there: where the node is in the tile, -1: not in it.
-using Overlaps = std::array<std::array<int, kBlockNodes>, 8>;
-Overlaps find_overlaps(int dimension) {
-  const int edge = block_edge(dimension), width = tile_edge(dimension);
-  Overlaps out{};
-  for (int corner = 0; corner < corner_count(dimension); ++corner)
-    for (int n = 0; n < kBlockNodes; ++n) {
-      int from = 0;
-      bool inside = true;
-      for (int a = 0, power = kBlockNodes / edge; a < dimension; ++a, power /= edge) {
-        const int at = n / power % edge + edge * corner_offset(corner, a);
-        inside = inside && at < width;
-        from = from * width + at;
-      }
-      out[static_cast<std::size_t>(corner)][static_cast<std::size_t>(n)] =
-          inside ? kNodeDoubles * from : -1;
-    }
-  return out;
 }
 
 }  // namespace

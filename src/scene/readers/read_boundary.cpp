@@ -14,6 +14,7 @@ struct GivenBoundary {
   Boundary boundary;
   bool is_axis = false;
   const Node* node = nullptr;
+  std::optional<ReadTime> pressure;  ///< on the bodies that reach the side, which is open
 };
 
 struct Kind {
@@ -25,7 +26,8 @@ struct Kind {
 constexpr std::array kKinds{
     Kind{"axis", BoundaryKind::symmetry, true}, Kind{"symmetry", BoundaryKind::symmetry, false},
     Kind{"open", BoundaryKind::open, false},    Kind{"sticky", BoundaryKind::sticky, false},
-    Kind{"wall", BoundaryKind::wall, false},    Kind{"velocity", BoundaryKind::velocity, false}};
+    Kind{"wall", BoundaryKind::wall, false},    Kind{"velocity", BoundaryKind::velocity, false},
+    Kind{"pressure", BoundaryKind::open, false}};
 
 constexpr double kSticks = std::numeric_limits<double>::infinity();
 
@@ -69,7 +71,12 @@ GivenBoundary read_side(const Node& node, Reading& reading) {
   }
   side.boundary.kind = kind->kind;
   side.is_axis = kind->is_axis;
-  if (kind->kind == BoundaryKind::velocity) {
+  if (choice->name == "pressure") {
+    if (choice->value)
+      side.pressure = read_time_function(*choice->value, "Pa", reading);
+    else
+      reading.problems.add(node.file, node.line, node.path, "expected {pressure: 1 GPa}");
+  } else if (kind->kind == BoundaryKind::velocity) {
     read_driven(node, *choice, reading, side.boundary);
   } else if (choice->value) {
     Block block{choice->value, node.path + "." + choice->name, node, reading.problems};
@@ -122,6 +129,12 @@ class Sides {
     check_no_axis_3d();
   }
 
+  /// The resolved pressure of a side; null: none.
+  const Node* pressure(int axis, int side) const {
+    const auto& given = given_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)];
+    return given.pressure ? &given.pressure->resolved : nullptr;
+  }
+
  private:
   static const char* key(const char* axis, int side) {
     static constexpr std::array<std::array<const char*, 2>, 4> keys{
@@ -140,6 +153,14 @@ class Sides {
     if (given_[a][s].node) fail(*given.node, "this side already has a condition");
     given_[a][s] = given;
     reading_.scene.grid.boundary[a][s] = given.boundary;
+    if (!given.pressure) return;
+    FaceLoad load;
+    load.name = std::string{axis_name(frame_, axis)} + (side == 0 ? "_min" : "_max");
+    load.where = given.boundary.where;
+    load.axis = axis;
+    load.side = side;
+    load.value[0] = given.pressure->value;
+    reading_.scene.loads.faces.push_back(std::move(load));
   }
 
   /// r_min in 3d: the axis is no side there.
@@ -246,7 +267,13 @@ Node read_boundary(const Node* node, const BoxInfo& box, Block& grid, Reading& r
       const bool is_axis =
           frame == Frame::axisymmetric && axis == 0 && side == 0 && box.lower_r == 0;
       const std::string key = std::string{axis_name(frame, axis)} + (side == 0 ? "_min" : "_max");
-      add_member(resolved, key, side_node(boundary, is_axis, frame));
+      if (const Node* pressure = sides.pressure(axis, side)) {
+        Node pressed;
+        add_member(pressed, "pressure", *pressure);
+        add_member(resolved, key, pressed);
+      } else {
+        add_member(resolved, key, side_node(boundary, is_axis, frame));
+      }
     }
   }
   return resolved;

@@ -176,28 +176,8 @@ std::vector<int> read_bodies(Block& block, Reading& reading) {
 void read_region(Block& parent, MeasureSelection& selection, Reading& reading) {
   const Node* node = parent.find("region");
   if (!node) return;
-  const Frame frame = reading.scene.frame;
   Block block{node, node->path, parent.place(), reading.problems};
-  for (const char* name : {"r", "x", "y", "z"}) {
-    const int axis = axis_of(frame, name);
-    if (axis < 0) continue;
-    for (int side = 0; side < 2; ++side) {
-      const std::string key = name + std::string{kSides[static_cast<std::size_t>(side)]};
-      const ParameterInfo bound{key.c_str(), "m", Range::any, kRequired, "bound of the region"};
-      const std::optional<double> value = block.optional_number(bound);
-      if (!value) continue;
-      auto& bounds = selection.region[static_cast<std::size_t>(axis)];
-      double& mine = bounds[static_cast<std::size_t>(side)];
-      if (std::isfinite(mine)) block.fail("r and x are the same axis in this frame; give one");
-      mine = *value;
-      block.record(side_name(frame, axis, side), number_node(*value));
-      if (!(bounds[0] < bounds[1]))
-        block.fail("the region is empty: " + side_name(frame, axis, 1) + " must lie beyond " +
-                   side_name(frame, axis, 0));
-    }
-  }
-  if (selection.region == MeasureSelection{}.region)
-    block.fail("give at least one bound, z_min, ...");
+  read_bounds(block, selection.region, reading);
   parent.record("region", block.finish());
 }
 
@@ -294,6 +274,41 @@ Node read_measure(const Node& node, Reading& reading) {
 }
 
 }  // namespace
+
+void read_bounds(Block& block, std::array<std::array<double, 2>, 3>& region, Reading& reading) {
+  const Frame frame = reading.scene.frame;
+  for (const char* name : {"r", "x", "y", "z"}) {
+    const int axis = axis_of(frame, name);
+    if (axis < 0) continue;
+    for (int side = 0; side < 2; ++side) {
+      const std::string key = name + std::string{kSides[static_cast<std::size_t>(side)]};
+      const ParameterInfo bound{key.c_str(), "m", Range::any, kRequired, "bound of the region"};
+      const std::optional<double> value = block.optional_number(bound);
+      if (!value) continue;
+      auto& bounds = region[static_cast<std::size_t>(axis)];
+      double& mine = bounds[static_cast<std::size_t>(side)];
+      if (std::isfinite(mine)) block.fail("r and x are the same axis in this frame; give one");
+      mine = *value;
+      block.record(side_name(frame, axis, side), number_node(*value));
+      if (!(bounds[0] < bounds[1]))
+        block.fail("the region is empty: " + side_name(frame, axis, 1) + " must lie beyond " +
+                   side_name(frame, axis, 0));
+    }
+  }
+  if (region == MeasureSelection{}.region) block.fail("give at least one bound, z_min, ...");
+}
+
+std::pair<int, int> read_face_name(const Node& node, Reading& reading) {
+  const Frame frame = reading.scene.frame;
+  const std::optional<std::string> word = read_word(node, reading.problems);
+  if (!word) return {-1, 0};
+  const auto face = side_of(frame, *word);
+  std::vector<std::string> faces;
+  for (int axis = 0; axis < dimension(frame); ++axis)
+    for (int side = 0; side < 2; ++side) faces.push_back(side_name(frame, axis, side));
+  if (face.first < 0) report_unknown(node, "face", *word, faces, reading.problems);
+  return face;
+}
 
 Node read_measures(const Node* node, Reading& reading) {
   Node resolved;

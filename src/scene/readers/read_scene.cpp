@@ -41,7 +41,7 @@ void require_blocks(const Node& tree, Block& root) {
   if (framed) return;
   for (const char* key :
        {"title", "frame", "grid", "time", "method", "materials", "bodies", "contact", "body_force",
-        "output", "measures", "outcomes", "references"}) {
+        "damping", "loads", "output", "measures", "outcomes", "references"}) {
     root.find(key);
   }
   root.finish();
@@ -64,6 +64,7 @@ void read_blocks(Block& root, Reading& reading) {
   if (const Node* node = root.find_block("contact"))
     root.record("contact", read_contact(*node, reading));
   read_body_force(root, reading);
+  read_loads(root, reading);
   root.record("output", read_output(root.find("output"), reading));
   root.record("measures", read_measures(root.find("measures"), reading));
   read_answers(root, reading);

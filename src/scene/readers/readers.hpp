@@ -4,9 +4,11 @@
 /// The readers of a scene's blocks. Each fills its part of the Scene, reports what is wrong and
 /// returns the block with all defaults for resolved.yaml. Order matters: the frame first, then the
 /// grid, materials, bodies, measures.
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "krater/scene/scene.hpp"
@@ -35,6 +37,19 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
 void check_rigid(Reading& reading);
 Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies
 Node read_measures(const Node* node, Reading& reading);
+/// `face: z_max`: axis and side (0 lower, 1 upper) of the outward normal; axis -1 after a problem.
+std::pair<int, int> read_face_name(const Node& node, Reading& reading);
+/// `{z_min: 8 mm, r_max: 3 mm}`: bounds by grid axis.
+void read_bounds(Block& block, std::array<std::array<double, 2>, 3>& region, Reading& reading);
+
+/// A value, an expression in t, or `{table: [[time, value], ...]}`.
+struct ReadTime {
+  TimeFunction value;
+  Node resolved;
+};
+std::optional<ReadTime> read_time_function(const Node& node, const char* unit, Reading& reading);
+/// `damping:` and `loads:`, after read_bodies; loads on sides of the box find their bodies.
+void read_loads(Block& root, Reading& reading);
 /// `outcomes:` and `time.stop_when`, which may add one; after read_bodies.
 Node read_outcomes(const Node* node, Reading& reading);
 void read_stop(const Node& node, Reading& reading);

@@ -21,6 +21,7 @@ struct FaceLoad {
   int axis = -1, side = -1;  ///< the face whose outward normal is this grid axis; -1: all around
   /// [grid axis][0 lower, 1 upper] bounds of the position at the start [m].
   std::array<std::array<double, 2>, 3> region = {unbounded, unbounded, unbounded};
+  std::function<bool(const std::array<double, 3>&)> inside;  ///< and then there; empty: anywhere
   Kind kind = Kind::pressure;
   /// Pressure [Pa] alone, or components along the grid axes; empty: none, or not prescribed.
   std::array<TimeFunction, 3> value;

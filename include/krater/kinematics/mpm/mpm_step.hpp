@@ -21,6 +21,7 @@
 #include "krater/kinematics/kinematics.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
 #include "krater/kinematics/mpm/migrate.hpp"
+#include "krater/kinematics/mpm/node_loads.hpp"
 #include "krater/kinematics/mpm/options.hpp"
 #include "krater/kinematics/mpm/reference.hpp"
 
@@ -52,6 +53,7 @@ class MpmStep final : public Kinematics {
     const Kernels& plain;
     const std::vector<BodyKernelData>& bodies;
     Audit& audit;
+    NodeLoads& loads;
   };
   MpmStep(const MethodOptions& method, const Parts& parts);
 
@@ -98,6 +100,7 @@ class MpmStep final : public Kinematics {
   void finish_rigid(double dt);
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
+  void book_loads(double dt);
   void write_node_work();
   void book();
   void halve_until_safe(double& dt, double max_change);
@@ -151,10 +154,11 @@ class MpmStep final : public Kinematics {
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
 
   Audit& audit_;
+  NodeLoads& loads_;
   EnergyWatch energy_watch_;
   double grid_kinetic_ = 0;  ///< of the step under way, as are the next two
   Constraints constraints_;
-  bool loaded_;  ///< body forces act
+  bool loaded_;  ///< body forces or loads act
   Audit::StepHeat heat_;
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which points belong to the faces of loads: at the start, by the body's own shape.
+#include <algorithm>
+
+#include "krater/kinematics/mpm/node_loads.hpp"
+#include "krater/simulation/body.hpp"
+
+namespace krater {
+
+std::vector<int> loads_of(const Scene& scene, int body) {
+  std::vector<int> out;
+  for (std::size_t k = 0; k < scene.loads.faces.size(); ++k) {
+    const std::vector<int>& bodies = scene.loads.faces[k].bodies;
+    if (std::find(bodies.begin(), bodies.end(), body) != bodies.end())
+      out.push_back(static_cast<int>(k));
+  }
+  return out;
+}
+
+bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, const Triple& x) {
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(scene.frame)); ++a)
+    if (x[a] < load.region[a][0] || x[a] > load.region[a][1]) return false;
+  if (load.inside && !load.inside(x)) return false;
+  if (load.axis < 0) return true;
+  const double depth =
+      (load.kind == FaceLoad::Kind::velocity ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
+  const auto a = static_cast<std::size_t>(load.axis);
+  const double end = load.side == 0 ? scene.grid.min[a] : scene.grid.max[a];
+  Spans spans;
+  solid.spans(along_axis(to_space(scene.frame, x), tensor_axis(scene.frame, load.axis)), spans);
+  const auto distance = [&](const Span& span) {
+    return load.side == 0 ? x[a] - std::max(span.low, end) : std::min(span.high, end) - x[a];
+  };
+  return std::any_of(spans.begin(), spans.end(), [&](const Span& span) {
+    return x[a] >= span.low && x[a] <= span.high && distance(span) <= depth;
+  });
+}
+
+}  // namespace krater
