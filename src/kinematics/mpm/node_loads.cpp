@@ -10,11 +10,9 @@ namespace krater {
 
 namespace {
 
-// Of [m, p, f, V] after the scatter, and of [v+, m, dv, V]. In the records of areas the momenta are
-// the marked masses of the body's loads, the forces the area vector.
-constexpr int kMass = 0, kMomentum = 1, kForce = 4;
-constexpr int kVelocity = 0, kNodeMass = 3, kChange = 4;
-constexpr int kShares = kMomentum, kArea = kForce;
+// In the records of areas the momenta are the marked masses of the body's loads, the forces the
+// area vector.
+constexpr int kShares = summed::momentum, kArea = summed::force;
 constexpr double kDriven = 0.5;  // share from which a node is moved
 
 }  // namespace
@@ -102,7 +100,7 @@ void NodeLoads::load_node(const Record& area, int body, double* force) const {
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const auto k = static_cast<std::size_t>(loads[i]);
     const FaceLoad& load = options_.faces[k];
-    const double share = area[kShares + i] / area[kMass];
+    const double share = area[kShares + i] / area[summed::mass];
     if (!(share > 0) || load.kind == FaceLoad::Kind::velocity) continue;
     const bool presses = load.kind == FaceLoad::Kind::pressure;
     if (load.axis < 0) {
@@ -120,9 +118,9 @@ void NodeLoads::load_node(const Record& area, int body, double* force) const {
 void NodeLoads::damp(NodeBlock& block, double dt, double smallest_mass, double* force) const {
   const double half = 0.5 * options_.damping * dt;
   for (int n = 0; n < kBlockNodes; ++n)
-    for (int a = 0; a < 3 && block.nodes[kNodeDoubles * n + kMass] > smallest_mass; ++a) {
-      double& f = block.nodes[kNodeDoubles * n + kForce + a];
-      const double p = block.nodes[kNodeDoubles * n + kMomentum + a];
+    for (int a = 0; a < 3 && block.nodes[kNodeDoubles * n + summed::mass] > smallest_mass; ++a) {
+      double& f = block.nodes[kNodeDoubles * n + summed::force + a];
+      const double p = block.nodes[kNodeDoubles * n + summed::momentum + a];
       const double damping = -(options_.damping * p + half * f) / (1 + half);
       force[kForces * n + 3 + a] = damping;
       f += damping;
@@ -142,15 +140,15 @@ void NodeLoads::add_forces(double dt, double smallest_mass) {
       for (int n = 0; n < kBlockNodes; ++n) {
         double* node = block.nodes + kNodeDoubles * n;
         const Record& area = areas[static_cast<std::size_t>(n)];
-        if (!(node[kMass] > smallest_mass) || !(area[kMass] > 0)) continue;
+        if (!(node[summed::mass] > smallest_mass) || !(area[summed::mass] > 0)) continue;
         double* f = force + kForces * n;
         const std::array<double, 3> before{f[0], f[1], f[2]};
         load_node(area, static_cast<int>(body), f);
-        for (std::size_t a = 0; a < 3; ++a) node[kForce + a] += f[a] - before[a];
+        for (std::size_t a = 0; a < 3; ++a) node[summed::force + a] += f[a] - before[a];
       }
     }
-    const bool rigid = block.field < static_cast<int>(rigid_.size()) &&
-                       rigid_[static_cast<std::size_t>(block.field)];
+    const auto field = static_cast<std::size_t>(block.field);
+    const bool rigid = field < rigid_.size() && rigid_[field];
     if (options_.damping > 0 && !rigid) damp(block, dt, smallest_mass, force);
   });
 }
@@ -170,13 +168,13 @@ void NodeLoads::drive(double dt) {
         const FaceLoad& load = options_.faces[k];
         for (std::size_t n = 0; load.kind == FaceLoad::Kind::velocity && n < kBlockNodes; ++n) {
           double* node = block.nodes + kNodeDoubles * n;
-          if (!(areas[n][kShares + i] > kDriven * areas[n][kMass])) continue;
+          if (!(areas[n][kShares + i] > kDriven * areas[n][summed::mass])) continue;
           for (std::size_t a = 0; a < 3; ++a) {
             if (!load.value[a]) continue;
-            const double change = now_[k][a] - node[kVelocity + a];
-            node[kVelocity + a] += change;
-            node[kChange + a] += change;
-            force_of(b)[kForces * n + a] += node[kNodeMass] * change / dt;
+            const double change = now_[k][a] - node[moved::velocity + a];
+            node[moved::velocity + a] += change;
+            node[moved::change + a] += change;
+            force_of(b)[kForces * n + a] += node[moved::mass] * change / dt;
           }
         }
       }
@@ -192,7 +190,7 @@ LoadWork NodeLoads::work(double dt) const {
     for (int n = 0; n < kBlockNodes; ++n)
       for (int a = 0; a < 3; ++a) {
         const double* node = block.nodes + kNodeDoubles * n;
-        const double mean = node[kVelocity + a] - 0.5 * node[kChange + a];
+        const double mean = node[moved::velocity + a] - 0.5 * node[moved::change + a];
         parts[b].faces += force[kForces * n + a] * mean;
         parts[b].damping += force[kForces * n + 3 + a] * mean;
       }
