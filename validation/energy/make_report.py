@@ -19,7 +19,7 @@ import validate_energy_pictures as pictures  # noqa: E402
 from validate_impacts import discussion, value  # noqa: E402
 from validate_runs import ROOT, Study  # noqa: E402
 
-ESTIMATED_SECONDS = 500  # on two quiet cores
+ESTIMATED_SECONDS = 600  # on two quiet cores
 
 SPEEDS, CELLS = (1000, 2000, 3000, 6000), (100, 200)
 NOH = {"planar": (100, 200, 400, 800), "cylindrical": (50, 100, 200), "spherical": (50, 100, 200)}
