@@ -45,6 +45,8 @@ std::string fate_sentence(Fate fate, bool broken, const std::string& target) {
   return (broken ? " broke up and " : " ") + (phrases[static_cast<std::size_t>(fate)] + target);
 }
 
+const GatherNeeds kNeeds{true, true, {}};
+
 const std::string& body_name(const Scene& scene, int b) {
   return scene.bodies[static_cast<std::size_t>(b)].name;
 }
@@ -55,8 +57,8 @@ Outcomes::Outcomes(const Simulation& sim, const std::vector<Quantity>& columns)
     : scene_{sim.scene()} {
   for (const OutcomeOptions& o : scene_.outcomes) {
     Watched w;
-    const BodyPoints projectile = gather_points(sim, {o.projectile}, {});
-    const BodyPoints target = o.target < 0 ? BodyPoints{} : gather_points(sim, {o.target}, {});
+    const BodyPoints projectile = gather_points(sim, {o.projectile}, kNeeds);
+    const BodyPoints target = o.target < 0 ? BodyPoints{} : gather_points(sim, {o.target}, kNeeds);
     w.start = outcome_start(projectile, target, measure_context(sim, {o.projectile}));
     if (o.target >= 0 && w.start.speed == 0)
       throw InputError(
@@ -92,7 +94,7 @@ void Outcomes::take(const Simulation& sim, std::size_t i) {
   const OutcomeOptions& o = scene_.outcomes[i];
   Watched& w = watched_[i];
   schedule(i, sim.time());
-  const BodyPoints points = gather_points(sim, {o.projectile}, {});
+  const BodyPoints points = gather_points(sim, {o.projectile}, kNeeds);
   const MeasureContext context = measure_context(sim, {o.projectile});
   const bool first = w.looks.empty();
   if (points.count() == 0 || (!first && leaves(points, context))) return;  // it stays what it was
@@ -147,7 +149,7 @@ Json Outcomes::describe(const Simulation& sim, std::size_t i) {
   const Settling settling = settling_of(w.looks, w.start, o.tolerance);
   const OutcomeLook& last = w.looks.back();
   const auto fate = static_cast<Fate>(static_cast<int>(last.fate));
-  const BodyPoints points = gather_points(sim, {o.projectile}, {});
+  const BodyPoints points = gather_points(sim, {o.projectile}, kNeeds);
   const OutcomeState state = outcome_state(points, measure_context(sim, {o.projectile}), w.start);
   const bool broken = points.count() > 0 && state.broken();
   const std::string projectile = body_name(scene_, o.projectile);
