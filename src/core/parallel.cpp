@@ -39,12 +39,17 @@ namespace detail {
 
 void for_each(std::size_t count, void (*call)(const void*, std::size_t), const void* context) {
   const auto n = static_cast<long>(count);
+  if (thread_count == 1 || n <= 1) {  // OpenMP asks for a lock per item even then
+    flush_denormals();
+    for (long i = 0; i < n; ++i) call(context, static_cast<std::size_t>(i));
+    return;
+  }
   // One error is kept, that of the first item that failed: none may leave the parallel region, and
   // one of each item would use up what the library holds ready for a lack of memory.
   std::atomic<long> failed{n};
   std::exception_ptr error;
   std::mutex guard;
-#pragma omp parallel num_threads(thread_count) if (thread_count > 1)
+#pragma omp parallel num_threads(thread_count)
   {
     flush_denormals();
 #pragma omp for schedule(dynamic, 1)

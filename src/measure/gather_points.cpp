@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "krater/core/parallel.hpp"
 #include "krater/measure/measurements.hpp"
 #include "krater/measure/pieces.hpp"
 
@@ -51,29 +52,32 @@ std::vector<std::string> available(const Simulation& sim, const std::vector<int>
   return out;
 }
 
+/// The points of a set into `out`, from the place `first` on.
 void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& wanted,
-                BodyPoints& out) {
+                std::size_t first, BodyPoints& out) {
   const PointSet p = sim.set(at);
   const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
   const int x = body.slot(field::Position::info), v = body.slot(field::Velocity::info);
   const int m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
-  const int failed = slot_of(body, field::Failed::info.name);
+  const int failed = out.rubble.empty() ? -1 : slot_of(body, field::Failed::info.name);
   const double loose = 0.5 * body.material().density;
+  const auto vector = [&](int i, int slot) {
+    Triple values{};
+    for (int a = 0; a < sim.geometry().dimension; ++a)
+      values[static_cast<std::size_t>(a)] = sim.value(at, i, slot + a);
+    return values;
+  };
   for (int i = 0; i < p.count(); ++i) {
-    Triple position{}, velocity{};
-    for (int a = 0; a < sim.geometry().dimension; ++a) {
-      position[static_cast<std::size_t>(a)] = sim.value(at, i, x + a);
-      velocity[static_cast<std::size_t>(a)] = sim.value(at, i, v + a);
-    }
-    out.x.push_back(position);
-    out.v.push_back(velocity);
-    out.mass.push_back(sim.value(at, i, m));
-    out.density.push_back(sim.value(at, i, rho));
-    out.body.push_back(p.body);
-    out.rubble.push_back(failed >= 0 && sim.value(at, i, failed) > 0.5 &&
-                         out.density.back() < loose);
+    const std::size_t n = first + static_cast<std::size_t>(i);
+    out.x[n] = vector(i, x);
+    if (!out.v.empty()) out.v[n] = vector(i, v);
+    out.mass[n] = sim.value(at, i, m);
+    out.density[n] = sim.value(at, i, rho);
+    if (!out.body.empty()) out.body[n] = p.body;
+    if (!out.rubble.empty())
+      out.rubble[n] = failed >= 0 && sim.value(at, i, failed) > 0.5 && out.density[n] < loose;
     for (const WantedScalar& w : wanted)
-      w.values->push_back(w.slot < 0 ? 0.0 : sim.value(at, i, w.slot));
+      (*w.values)[n] = w.slot < 0 ? 0.0 : sim.value(at, i, w.slot);
   }
 }
 
@@ -103,23 +107,41 @@ MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bo
   return c;
 }
 
-BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
-                         const std::vector<std::string>& fields) {
-  BodyPoints out;
-  const std::vector<std::string> names = available(sim, bodies, fields);
-  for (const std::string& name : names) out.scalars[name];
-  for (const int b : bodies) {
-    const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
-    std::vector<WantedScalar> wanted;
-    for (auto& [name, values] : out.scalars) wanted.push_back({&values, slot_of(body, name)});
-    for (int s = 0; s < sim.set_count(); ++s)
-      if (sim.set(s).body == b) gather_set(sim, s, wanted, out);
-  }
-  return out;
+void gather_points(const Simulation& sim, const std::vector<int>& bodies, const PointNeeds& needs,
+                   BodyPoints& out) {
+  struct SetPlace {
+    int set;
+    std::size_t first, body;  ///< its place among the points, and of its body in `bodies`
+  };
+  std::vector<SetPlace> places;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (int s = 0; s < sim.set_count(); ++s) {
+      if (sim.set(s).body != bodies[b]) continue;
+      places.push_back({s, count, b});
+      count += static_cast<std::size_t>(sim.set(s).count());
+    }
+  out.x.resize(count);
+  out.v.resize(needs.velocity || needs.pieces ? count : 0);
+  out.mass.resize(count);
+  out.density.resize(count);
+  out.body.resize(needs.pieces ? count : 0);
+  out.rubble.resize(needs.pieces ? count : 0);
+  for (const std::string& name : available(sim, bodies, needs.fields))
+    out.scalars[name].resize(count);
+  std::vector<std::vector<WantedScalar>> wanted(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (auto& [name, values] : out.scalars)
+      wanted[b].push_back(
+          {&values, slot_of(*sim.bodies()[static_cast<std::size_t>(bodies[b])], name)});
+  for_each(places.size(), [&](std::size_t i) {
+    gather_set(sim, places[i].set, wanted[places[i].body], places[i].first, out);
+  });
 }
 
 std::vector<double> fragment_numbers(const Simulation& sim, int body) {
-  const BodyPoints points = gather_points(sim, {body}, {});
+  BodyPoints points;
+  gather_points(sim, {body}, {false, true, {}}, points);
   const Pieces pieces = connected_pieces(points, measure_context(sim, {body}));
   std::vector<int> first;  // of every set among the points
   int count = 0;

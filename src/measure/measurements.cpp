@@ -41,41 +41,23 @@ std::vector<std::string> fields_of(const MeasureOptions& measure) {
   }
 }
 
-/// Selected points, gathered once for all measures of one selection.
-class Selections {
- public:
-  explicit Selections(const Simulation& sim) : sim_{sim} {
-    for (const MeasureOptions& m : sim.scene().measures)
-      for (const std::string& field : fields_of(m)) fields_[m.selection.bodies].push_back(field);
+bool needs_velocity(MeasureKind kind) {
+  switch (kind) {
+    case MeasureKind::mean_velocity:
+    case MeasureKind::momentum:
+    case MeasureKind::deceleration:
+    case MeasureKind::settling_time:
+    case MeasureKind::kinetic_energy:
+      return true;
+    default:
+      return false;
   }
+}
 
-  MeasureContext context(const MeasureSelection& selection) const {
-    return measure_context(sim_, selection.bodies);
-  }
-
-  const BodyPoints& points(const MeasureSelection& selection) {
-    for (const auto& [known, points] : selected_)
-      if (known == selection) return points;
-    const auto of_bodies = [&](const std::vector<int>& bodies) {
-      return gather_points(sim_, bodies, fields_[bodies]);
-    };
-    MeasureSelection whole;
-    whole.bodies = selection.bodies;
-    if (selection == whole) return keep(selection, of_bodies(selection.bodies));
-    return keep(selection, select(selection, points(whole), context(selection)));
-  }
-
- private:
-  const BodyPoints& keep(const MeasureSelection& selection, BodyPoints points) {
-    points.memo = std::make_shared<SurfaceMemo>();
-    selected_.emplace_back(selection, std::move(points));
-    return selected_.back().second;
-  }
-
-  const Simulation& sim_;
-  std::map<std::vector<int>, std::vector<std::string>> fields_;
-  std::deque<std::pair<MeasureSelection, BodyPoints>> selected_;  // references stay valid
-};
+bool needs_pieces(const MeasureOptions& measure) {
+  return measure.kind == MeasureKind::fragments || measure.selection.largest_piece ||
+         measure.selection.least_points > 1;
+}
 
 bool in_row(const MeasureOptions& measure) {
   return measure.in_history || measure.keep != Keep::now ||
@@ -166,19 +148,49 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
 
 }  // namespace
 
-Measurements::Measurements(const Simulation& sim) {
-  Selections selections{sim};
+Selections::Selections(const Scene& scene) {
+  for (const MeasureOptions& m : scene.measures) {
+    PointNeeds& needs = needs_[m.selection.bodies];
+    for (const std::string& field : fields_of(m)) needs.fields.push_back(field);
+    needs.velocity = needs.velocity || needs_velocity(m.kind);
+    needs.pieces = needs.pieces || needs_pieces(m);
+  }
+}
+
+void Selections::begin() {
+  for (Kept& kept : kept_) kept.now = false;
+}
+
+const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelection& selection) {
+  auto at = std::find_if(kept_.begin(), kept_.end(),
+                         [&](const Kept& kept) { return kept.selection == selection; });
+  Kept& kept = at != kept_.end() ? *at : kept_.emplace_back(Kept{selection, {}, false});
+  if (kept.now) return kept.points;
+  MeasureSelection whole;
+  whole.bodies = selection.bodies;
+  if (selection == whole)
+    gather_points(sim, selection.bodies, needs_[selection.bodies], kept.points);
+  else
+    kept.points = select(selection, points(sim, whole), measure_context(sim, selection.bodies));
+  kept.points.memo = std::make_shared<SurfaceMemo>();
+  kept.now = true;
+  return kept.points;
+}
+
+Measurements::Measurements(const Simulation& sim) : selections_{sim.scene()} {
+  Selections selections{sim.scene()};  // of the start only: they do not stay
   for (const MeasureOptions& m : sim.scene().measures) {
     MeasureStart start;
     if (needs_mass(m))
-      for (const double mass : selections.points(m.selection).mass) start.mass += mass;
+      for (const double mass : selections.points(sim, m.selection).mass) start.mass += mass;
     if (needs_face(m)) {
       MeasureSelection owner = m.selection;
       if (m.target >= 0) {
         owner = {};
         owner.bodies = {m.target};
       }
-      start.face = face_position(m, selections.points(owner), selections.context(owner));
+      start.face =
+          face_position(m, selections.points(sim, owner), measure_context(sim, owner.bodies));
     }
     start_.push_back(start);
   }
@@ -194,10 +206,11 @@ void Measurements::check(const Simulation& sim) const {
             m.where + ": the history has a column of this name; call the measure " +
             sim.scene().bodies.at(static_cast<std::size_t>(m.selection.bodies.at(0))).name + "_" +
             m.name + ", or say history: false");
-  Selections selections{sim};
+  Selections selections{sim.scene()};
   for (std::size_t i = 0; i < start_.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
-    evaluate(m, selections.points(m.selection), selections.context(m.selection), start_[i]);
+    evaluate(m, selections.points(sim, m.selection), measure_context(sim, m.selection.bodies),
+             start_[i]);
   }
 }
 
@@ -205,13 +218,13 @@ void Measurements::check(const Simulation& sim) const {
 std::vector<double> Measurements::values(const Simulation& sim, bool all) {
   std::vector<double> out(start_.size(), kNothing);
   if (sim.broken()) return out;
-  Selections selections{sim};
+  selections_.begin();
   for (std::size_t i = 0; i < out.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
     if (!all && !in_row(m)) continue;
-    const BodyPoints& points = selections.points(m.selection);
+    const BodyPoints& points = selections_.points(sim, m.selection);
     out[i] = follow(m, series_[i], sim.time(),
-                    evaluate(m, points, selections.context(m.selection), start_[i]));
+                    evaluate(m, points, measure_context(sim, m.selection.bodies), start_[i]));
   }
   return out;
 }
@@ -236,21 +249,20 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
   const Scene& scene = sim.scene();
   const std::vector<double> now = values(sim, true);
   Json measures, fragments;
-  Selections selections{sim};
   nothing_.clear();
   for (std::size_t i = 0; i < now.size(); ++i) {
     const MeasureOptions& m = scene.measures[i];
     Json& measure = measures[m.name] = measure_json(m, scene, start_[i], series_[i], now[i]);
     if (!sim.broken() &&
-        rarefied(m, selections.points(m.selection), selections.context(m.selection)))
+        rarefied(m, selections_.points(sim, m.selection), measure_context(sim, m.selection.bodies)))
       measure["rarefied"] = Json::of(true);
-    if (std::isnan(now[i]) && !sim.broken() && selections.points(m.selection).mass.empty())
+    if (std::isnan(now[i]) && !sim.broken() && selections_.points(sim, m.selection).mass.empty())
       nothing_.push_back(m.name);
     if (m.kind != MeasureKind::fragments || sim.broken()) continue;
     MeasureSelection with_dust = m.selection;
     with_dust.least_points = 0;
-    fragments[m.name] =
-        fragments_json(m, selections.points(with_dust), selections.context(m.selection), scene);
+    fragments[m.name] = fragments_json(m, selections_.points(sim, with_dust),
+                                       measure_context(sim, m.selection.bodies), scene);
   }
   summary["measures"] = std::move(measures);
   if (!fragments.items.empty()) summary["fragments"] = std::move(fragments);

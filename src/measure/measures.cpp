@@ -189,7 +189,7 @@ BodyPoints filtered(const BodyPoints& points, const K& keep) {
   for (std::size_t p = 0; p < points.count(); ++p) {
     if (!keep(p)) continue;
     out.x.push_back(points.x[p]);
-    out.v.push_back(points.v[p]);
+    if (!points.v.empty()) out.v.push_back(points.v[p]);
     out.mass.push_back(points.mass[p]);
     out.density.push_back(points.density[p]);
     if (!points.body.empty()) out.body.push_back(points.body[p]);

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <set>
 
+#include "krater/core/parallel.hpp"
 #include "krater/measure/measurements.hpp"
 
 namespace krater {
@@ -88,30 +90,33 @@ void add(std::vector<Quantity>& row, std::string name, std::string unit, double 
   row.push_back({std::move(name), std::move(unit), value});
 }
 
-/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J].
-double deviatoric_energy(const Simulation& sim) {
+/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J], of one set.
+double deviatoric_energy(const Simulation& sim, int set) {
+  const PointSet points = sim.set(set);
+  const Body& body = *sim.bodies()[static_cast<std::size_t>(points.body)];
+  const int s = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info),
+            rho = body.slot(field::Density::info),
+            phi = body.degrades() ? body.slot(field::Damage::info) : -1;
+  const double G = body.material().shear_modulus;
+  if (s < 0 || G <= 0) return 0;
   double sum = 0;
-  for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
-    const Body& body = *sim.bodies()[b];
-    const int s = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info),
-              rho = body.slot(field::Density::info);
-    const double G = body.material().shear_modulus;
-    if (s < 0 || G <= 0) continue;
-    const int phi = body.degrades() ? body.slot(field::Damage::info) : -1;
-    for (int p = 0; p < sim.set_count(); ++p) {
-      if (sim.set(p).body != static_cast<int>(b)) continue;
-      for (int i = 0; i < sim.set(p).count(); ++i) {
-        double square = 0;
-        for (int k = 0; k < 6; ++k) {
-          const double x = sim.value(p, i, s + k);
-          square += (k < 3 ? 1 : 2) * x * x;
-        }
-        sum += sim.value(p, i, m) * square /
-               (4 * G * sim.value(p, i, rho) * (phi < 0 ? 1 : 1 - sim.value(p, i, phi)));
-      }
+  for (int i = 0; i < points.count(); ++i) {
+    double square = 0;
+    for (int k = 0; k < 6; ++k) {
+      const double x = sim.value(set, i, s + k);
+      square += (k < 3 ? 1 : 2) * x * x;
     }
+    sum += sim.value(set, i, m) * square /
+           (4 * G * sim.value(set, i, rho) * (phi < 0 ? 1 : 1 - sim.value(set, i, phi)));
   }
   return sum;
+}
+
+double deviatoric_energy(const Simulation& sim) {
+  std::vector<double> sets(static_cast<std::size_t>(sim.set_count()));
+  for_each(sets.size(),
+           [&](std::size_t s) { sets[s] = deviatoric_energy(sim, static_cast<int>(s)); });
+  return std::accumulate(sets.begin(), sets.end(), 0.0);
 }
 
 }  // namespace
@@ -153,7 +158,9 @@ OutputFrame make_frame(const Simulation& sim, int number) {
 
 std::vector<Quantity> history_row(const Simulation& sim) {
   const Audit& a = sim.audit();
-  const Totals t = sim.totals();
+  const std::vector<Totals> bodies = sim.totals_by_body();
+  Totals t;
+  for (const Totals& body : bodies) t += body;
   std::vector<Quantity> row;
   add(row, "time", "s", sim.time());
   add(row, "step", "1", static_cast<double>(sim.steps()));
@@ -191,7 +198,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "wall_columns", "1", a.wall_columns);
   add(row, "contact_pairs", "1", a.contact_pairs);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
-    const Totals body = sim.bodies().size() == 1 ? t : sim.totals(static_cast<int>(b));
+    const Totals& body = bodies[b];
     add(row, sim.bodies()[b]->name() + ".kinetic_energy", "J", body.kinetic);
     for (int k = 0; k < dimension(frame); ++k)
       add(row, sim.bodies()[b]->name() + ".mean_velocity_" + std::string{axis_name(frame, k)},

@@ -73,7 +73,9 @@ namespace output {
 
 void save_checkpoint(const std::string& path, const Checkpoint& checkpoint,
                      const TextAttributes& attributes) {
-  MemoryFile file(path, MemoryFile::Kind::sealed);
+  std::size_t numbers = 0;
+  for (const auto& blob : checkpoint.blobs) numbers += blob.doubles.size() + blob.integers.size();
+  MemoryFile file(path, MemoryFile::Kind::sealed, 8 * numbers);
   file.set(attributes);
   std::string order;  // HDF5 lists names alphabetically; the program's order is kept here
   for (const auto& blob : checkpoint.blobs) {

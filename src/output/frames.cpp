@@ -82,6 +82,16 @@ void write_body(const Node& file, const BodyFrame& body) {
   for (const auto& field : body.fields) write_field(group, body, field);
 }
 
+/// Before it is packed.
+std::size_t bytes_of(const OutputFrame& frame) {
+  std::size_t numbers = 0;
+  for (const BodyFrame& body : frame.bodies) {
+    numbers += 2 * body.ids.size() + body.coordinates.size();
+    for (const FieldArray& field : body.fields) numbers += field.values.size();
+  }
+  return 8 * numbers;
+}
+
 void remove_file(const fs::path& path) {
   std::error_code error;
   fs::remove(path, error);
@@ -136,7 +146,8 @@ void FrameSeries::write(const OutputFrame& frame, const TextAttributes& attribut
   std::error_code error;
   fs::create_directories(folder_ + "/frames", error);
   if (error) throw OutputError(folder_ + "/frames: cannot be created: " + error.message());
-  MemoryFile file(folder_ + "/" + frame_file(frame.number));
+  MemoryFile file(folder_ + "/" + frame_file(frame.number), MemoryFile::Kind::plain,
+                  bytes_of(frame));
   file.set(attributes);
   file.set("time", frame.time);
   file.set("step", frame.step);

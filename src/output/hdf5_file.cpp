@@ -79,6 +79,10 @@ Handle make_space(const Shape& shape) {
   return {H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose};
 }
 
+// The file in memory grows by a sixteenth of what it will hold: HDF5 clears every piece, and moves
+// what is there when a piece is added.
+constexpr std::size_t kLeastGrowth = 1 << 16, kMostGrowth = 1 << 22;  // bytes
+
 constexpr std::uint64_t kWorthPacking = 128;     // values: below, the chunk's index costs more
 constexpr std::uint64_t kChunkValues = 1 << 16;  // half a MB: HDF5's cache of chunks holds two
 
@@ -297,11 +301,11 @@ template std::vector<unsigned char> Node::read() const;
 
 // ---------------------------------------------------------------------------------------- files
 
-MemoryFile::MemoryFile(const std::string& path, Kind kind)
+MemoryFile::MemoryFile(const std::string& path, Kind kind, std::size_t bytes)
     : Node({}, path, Mode::write), kind_(kind) {
   const QuietErrors quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  constexpr std::size_t growth = 1 << 22;
+  const std::size_t growth = std::clamp(bytes / 16, kLeastGrowth, kMostGrowth);
   require(H5Pset_fapl_core(access.id(), growth, false), "file in memory");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   if (kind == Kind::sealed) require(H5Pset_userblock(creation.id(), kSealBytes), "user block");

@@ -84,7 +84,8 @@ class Node {
 class MemoryFile : public Node {
  public:
   enum class Kind { plain, sealed };  ///< sealed: output/seal.hpp
-  explicit MemoryFile(const std::string& path, Kind kind = Kind::plain);
+  /// `bytes`: about what it will hold.
+  explicit MemoryFile(const std::string& path, Kind kind = Kind::plain, std::size_t bytes = 0);
   void save();  ///< to its path, all or nothing
 
  private:

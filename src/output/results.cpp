@@ -2,6 +2,7 @@
 #include "krater/output/results.hpp"
 
 #include <filesystem>
+#include <future>
 #include <system_error>
 
 #include "krater/core/errors.hpp"
@@ -51,6 +52,7 @@ struct ResultsFolder::Impl {
   output::FrameSeries frames;
   output::History history;
   output::LineAppender log;
+  std::future<void> frame;  ///< last: its thread ends before what it uses
 };
 
 ResultsFolder::ResultsFolder(std::string path, bool resume) {
@@ -70,19 +72,28 @@ ResultsFolder::~ResultsFolder() {
 const std::string& ResultsFolder::path() const { return impl_->path; }
 
 void ResultsFolder::set_attributes(TextAttributes attributes) {
+  wait();
   impl_->attributes = std::move(attributes);
 }
 
 void ResultsFolder::continue_from(double time, const std::vector<Quantity>& row) {
+  wait();
   impl_->prepare();
   impl_->history.require_columns(row);
   impl_->frames.truncate_after(time, impl_->attributes);
   impl_->history.truncate_after(time);
 }
 
-void ResultsFolder::write_frame(const OutputFrame& frame) {
+void ResultsFolder::wait() {
+  if (impl_->frame.valid()) impl_->frame.get();
+}
+
+void ResultsFolder::write_frame(OutputFrame frame) {
+  wait();
   impl_->prepare();
-  impl_->frames.write(frame, impl_->attributes);
+  impl_->frame = std::async(std::launch::async, [impl = impl_.get(), frame = std::move(frame)] {
+    impl->frames.write(frame, impl->attributes);
+  });
 }
 
 void ResultsFolder::write_history(const std::vector<Quantity>& row) {
@@ -91,11 +102,13 @@ void ResultsFolder::write_history(const std::vector<Quantity>& row) {
 }
 
 void ResultsFolder::write_checkpoint(const Checkpoint& checkpoint) {
+  wait();
   impl_->prepare();
   output::save_checkpoint(impl_->path + "/checkpoint.h5", checkpoint, impl_->attributes);
 }
 
 void ResultsFolder::write_table(const std::string& name, const std::vector<TableColumn>& columns) {
+  wait();
   impl_->prepare();
   output::save_table(impl_->path + "/" + name, columns, impl_->attributes);
 }
@@ -124,6 +137,7 @@ void ResultsFolder::write_log(const std::string& line) {
 }
 
 void ResultsFolder::flush() {
+  wait();
   if (impl_->ready) impl_->history.save_copy(impl_->attributes);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/parallel.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace krater {
@@ -69,38 +70,56 @@ std::vector<std::pair<int, int>> Simulation::points_by_id(int body) const {
   return out;
 }
 
-Totals Simulation::totals(int body) const {
+Totals& Totals::operator+=(const Totals& other) {
+  count += other.count;
+  mass += other.mass;
+  kinetic += other.kinetic;
+  internal += other.internal;
+  for (std::size_t a = 0; a < 3; ++a) momentum[a] += other.momentum[a];
+  angular_momentum += other.angular_momentum;
+  return *this;
+}
+
+Totals Simulation::totals_of_set(int s) const {
   Totals t;
   const int dim = geometry_.dimension;
-  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
-    const Patch& patch = grid_.patches()[p];
-    if (body >= 0 && patch.body != body) continue;
-    const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-    for (int i = 0; i < patch.points.count(); ++i) {
-      const auto at = [&](int offset, int k) {
-        return value(static_cast<int>(p), i, offset / kLanes + k);
-      };
-      const double m = at(c.mass, 0);
-      t.count += 1;
-      t.mass += m;
-      t.kinetic += point_kinetic(patch, i, c, geometry_);
-      if (c.energy >= 0) t.internal += m * at(c.energy, 0);
-      if (c.carried >= 0) t.internal += m * at(c.carried, 0);
-      for (int a = 0; a < dim; ++a)
-        t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
-      // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
-      t.angular_momentum +=
-          m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
-      if (c.affine < 0) continue;
-      // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
-      const auto F = [&](int k, int a) {
-        return c.map >= 0 ? at(c.map, dim * k + a) : (k == a ? 1.0 : 0.0);
-      };
-      for (int a = 0; a < dim; ++a)
-        t.angular_momentum += m * 0.25 * geometry_.h * geometry_.h *
-                              (F(0, a) * at(c.affine, dim + a) - F(1, a) * at(c.affine, a));
-    }
+  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+  const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+  for (int i = 0; i < patch.points.count(); ++i) {
+    const auto at = [&](int offset, int k) { return patch.points.at(offset + kLanes * k, i); };
+    const double m = at(c.mass, 0);
+    t.count += 1;
+    t.mass += m;
+    t.kinetic += point_kinetic(patch, i, c, geometry_);
+    if (c.energy >= 0) t.internal += m * at(c.energy, 0);
+    if (c.carried >= 0) t.internal += m * at(c.carried, 0);
+    for (int a = 0; a < dim; ++a) t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
+    // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
+    t.angular_momentum +=
+        m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
+    if (c.affine < 0) continue;
+    // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
+    const auto F = [&](int k, int a) {
+      return c.map >= 0 ? at(c.map, dim * k + a) : (k == a ? 1.0 : 0.0);
+    };
+    for (int a = 0; a < dim; ++a)
+      t.angular_momentum += m * 0.25 * geometry_.h * geometry_.h *
+                            (F(0, a) * at(c.affine, dim + a) - F(1, a) * at(c.affine, a));
   }
+  return t;
+}
+
+std::vector<Totals> Simulation::totals_by_body() const {
+  std::vector<Totals> sets(grid_.patches().size()), out(bodies_.size());
+  for_each(sets.size(), [&](std::size_t s) { sets[s] = totals_of_set(static_cast<int>(s)); });
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    out[static_cast<std::size_t>(grid_.patches()[s].body)] += sets[s];
+  return out;
+}
+
+Totals Simulation::totals() const {
+  Totals t;
+  for (const Totals& body : totals_by_body()) t += body;
   return t;
 }
 

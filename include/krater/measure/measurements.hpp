@@ -3,7 +3,9 @@
 /// \file measure/measurements.hpp
 /// The measures of a scene along a run: what they remember of the start (mass, faces) and of the
 /// rows of history, their values, their part of summary.json. Points are gathered once per
-/// selection and row, in the order in which they are kept (no sorting), only the columns needed.
+/// selection and row, in the order in which they are kept (no sorting), only the columns needed,
+/// into memory that is kept: what a row allocates and frees the kernel clears again for the next.
+#include <deque>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,13 +19,36 @@ namespace krater {
 /// Domain, boundaries and point spacing of bodies, as measures see them.
 MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies);
 
-/// The points of bodies, body after body, patch after patch. `fields`: scalars wanted; those that
-/// not all bodies carry are left out, but for "failed" (0 where a body cannot fail).
-BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
-                         const std::vector<std::string>& fields);
+/// What is wanted of points beside position, mass and density.
+struct PointNeeds {
+  bool velocity = false, pieces = false;  ///< pieces: the velocity, and what is rubble
+  std::vector<std::string> fields;  ///< scalars; those that not all bodies carry are left out,
+                                    ///< but for "failed" (0 where a body cannot fail)
+};
+
+/// The points of bodies into `out`, body after body, patch after patch.
+void gather_points(const Simulation& sim, const std::vector<int>& bodies, const PointNeeds& needs,
+                   BodyPoints& out);
 
 /// Number of every point's piece in its body (0 the heaviest), points in the order of their ids.
 std::vector<double> fragment_numbers(const Simulation& sim, int body);
+
+/// Selected points, gathered once for all measures of one selection.
+class Selections {
+ public:
+  explicit Selections(const Scene& scene);
+  void begin();  ///< the points have moved: what was selected is memory only
+  const BodyPoints& points(const Simulation& sim, const MeasureSelection& selection);
+
+ private:
+  struct Kept {
+    MeasureSelection selection;
+    BodyPoints points;
+    bool now = false;  ///< selected since the beginning
+  };
+  std::map<std::vector<int>, PointNeeds> needs_;  ///< by the bodies of a selection
+  std::deque<Kept> kept_;                         // references stay valid
+};
 
 class Measurements {
  public:
@@ -50,6 +75,7 @@ class Measurements {
  private:
   std::vector<double> values(const Simulation& sim, bool all);
 
+  Selections selections_;
   std::vector<MeasureStart> start_;    ///< by measure
   std::vector<MeasureSeries> series_;  ///< by measure
   std::vector<std::string> nothing_;

@@ -75,19 +75,19 @@ struct SurfaceMemo {
 
 /// The points of one or several bodies; vectors along the grid axes, masses as in field::Mass.
 struct BodyPoints {
-  std::vector<Triple> x, v;
+  std::vector<Triple> x, v;  ///< v empty: no measure reads it
   std::vector<double> mass, density;
   std::map<std::string, std::vector<double>> scalars;
   std::vector<int> body;  ///< index in the scene; empty: one body
-  /// Rubble: failed and at less than half of the density at rest, so that nothing of it holds
+  /// 1 for rubble: failed and at less than half of the density at rest, so that nothing of it holds
   /// together; empty: none.
-  std::vector<bool> rubble;
+  std::vector<unsigned char> rubble;
   /// Of points that change no more; none: every measure looks for itself.
   std::shared_ptr<SurfaceMemo> memo;
 
   std::size_t count() const { return x.size(); }
   int body_of(std::size_t p) const { return body.empty() ? 0 : body[p]; }
-  bool is_rubble(std::size_t p) const { return !rubble.empty() && rubble[p]; }
+  bool is_rubble(std::size_t p) const { return !rubble.empty() && rubble[p] != 0; }
 };
 
 struct MeasureContext {

@@ -5,7 +5,8 @@
 /// src/output (the only HDF5 in the program). Files appear complete or not at all: they are built
 /// in memory, written beside (`NAME.part`) and renamed, so a killed run leaves everything it wrote
 /// before readable. Peak memory is twice the data of the file being written. The layout of the
-/// files is in src/output/README.md. Not thread-safe: one thread writes.
+/// files is in src/output/README.md. Not thread-safe: one thread calls; frames are packed and
+/// written by another meanwhile, and whatever else needs HDF5 waits for it.
 #include <concepts>
 #include <cstdint>
 #include <memory>
@@ -117,7 +118,10 @@ class ResultsFolder {
   /// After a restart: drops frames and rows of the history later than `time` [s]. Throws InputError
   /// when the history there has other columns than this `row`.
   void continue_from(double time, const std::vector<Quantity>& row);
-  void write_frame(const OutputFrame& frame);  ///< frames/NNNNNN.h5, frames.h5, frames.xmf
+  /// frames/NNNNNN.h5, frames.h5, frames.xmf: begins, and returns. Errors are thrown by the next
+  /// call that waits.
+  void write_frame(OutputFrame frame);
+  void wait();  ///< until the frame is written; before the next is made, so that there is one
   void write_history(
       const std::vector<Quantity>& row);  ///< a line of history.csv; the first column is time
   void write_checkpoint(const Checkpoint& checkpoint);  ///< checkpoint.h5
@@ -126,7 +130,7 @@ class ResultsFolder {
   void write_summary(const Json& summary);                            ///< summary.json
   void write_text(const std::string& name, const std::string& text);  ///< resolved.yaml
   void write_log(const std::string& line);  ///< log.txt; never throws: no run ends for its log
-  void flush();                             ///< history.h5 catches up with history.csv
+  void flush();  ///< the frame is written; history.h5 catches up with history.csv
 
  private:
   struct Impl;

@@ -24,6 +24,8 @@ struct Totals {
   std::array<double, 3> momentum{};
   double angular_momentum =
       0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
+
+  Totals& operator+=(const Totals& other);
 };
 
 /// What a fault means, in words.
@@ -70,7 +72,9 @@ class Simulation {
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
-  Totals totals(int body = -1) const;  ///< of one body, or of all
+  std::vector<Totals> totals_by_body() const;
+  Totals totals() const;  ///< of all bodies
+  Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
   /// All points, in sets of one body; the order is part of the state.
   int set_count() const { return step_->set_count(); }
@@ -88,6 +92,7 @@ class Simulation {
       const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
 
  private:
+  Totals totals_of_set(int s) const;
   void place_points();
   void place_rigid_bodies();
   void save_body(int body, Checkpoint& out) const;

@@ -111,10 +111,10 @@ TEST_SUITE("unit") {
     const MeasureContext context = plane();
     BodyPoints points = block(context, {2 * h, 2 * h}, {14 * h, 6 * h}, {});
     CHECK(connected_pieces(points, context).list.size() == 1);
-    points.rubble.assign(points.count(), false);
+    points.rubble.assign(points.count(), 0);
     const auto loosen = [&](double low, double high) {
       for (std::size_t p = 0; p < points.count(); ++p)
-        points.rubble[p] = points.x[p][0] > low && points.x[p][0] < high;
+        points.rubble[p] = points.x[p][0] > low && points.x[p][0] < high ? 1 : 0;
     };
     loosen(6 * h, 8 * h);  // both columns of cells touch a block: a chain through them holds
     CHECK(connected_pieces(points, context).list.size() == 2);

@@ -80,6 +80,7 @@ TEST_SUITE("unit") {
     write_file(folder / "run/notes.txt", "mine");
     ResultsFolder results(folder / "run");
     results.write_frame(small_frame(0, 0));
+    results.wait();
     std::vector<std::string> left;
     for (const auto& entry : fs::recursive_directory_iterator(folder / "run")) {
       if (entry.is_regular_file()) left.push_back(entry.path().filename().string());
@@ -95,6 +96,7 @@ TEST_SUITE("unit") {
     ResultsFolder results(folder / "run");
     results.write_checkpoint({{{"a", {}, {1, 2, 3}, {}, {}}}});
     results.write_frame(small_frame(0, 0));
+    results.wait();
     results.write_history({{"time", "s", 0}});
     const Checkpoint large{{{"a", {}, std::vector<double>(100000, 1.0), {}, {}}}};
     for (const rlim_t size : {0u, 5u, 100u, 5000u, 200000u}) {
@@ -104,7 +106,8 @@ TEST_SUITE("unit") {
     }
     {
       const SizeLimit limit(12);  // the history has 11 bytes
-      CHECK_THROWS_AS(results.write_frame(small_frame(1, 1)), OutputError);
+      results.write_frame(small_frame(1, 1));
+      CHECK_THROWS_AS(results.wait(), OutputError);
       CHECK_THROWS_AS(results.write_history({{"time", "s", 0.125}}), OutputError);
     }
     CHECK(read_checkpoint(folder / "run/checkpoint.h5").blobs[0].doubles.size() == 3);

@@ -33,6 +33,7 @@ TEST_SUITE("unit") {
     ResultsFolder results(folder / "run");
     results.set_attributes({{"program", "krater"}, {"frame_of_reference", "axisymmetric"}});
     results.write_frame(small_frame(3, 1.5e-6));
+    results.wait();
     const auto file = open_file(folder / "run/frames.h5");
     CHECK(file.text("frame_of_reference") == "axisymmetric");
     const std::string rod = "frames/000003/rod/";
@@ -49,6 +50,7 @@ TEST_SUITE("unit") {
     const TemporaryFolder folder;
     ResultsFolder results(folder / "run");
     results.write_frame(small_frame(0, 0));
+    results.wait();
     const auto file = open_file(folder / "run/frames/000000.h5");
     const auto velocity = file.open_dataset("rod/velocity");
     CHECK(velocity.read<double>() == std::vector<double>{1, 0, 2, 3, 0, 4});
@@ -69,6 +71,7 @@ TEST_SUITE("unit") {
     frame.bodies.push_back({"gone", {}, {}, {{"pressure", "Pa", "", 1, {}, {}}}});
     results.write_frame(frame);
     results.write_frame(small_frame(1, 0.1));
+    results.wait();
     const std::string text = read_file(folder / "run/frames.xmf");
     CHECK(text.find("<Time Value=\"0.10000000000000001\"/>") != std::string::npos);
     CHECK(text.find("Name=\"a&lt;b\"") != std::string::npos);
@@ -126,6 +129,7 @@ TEST_SUITE("unit") {
     CHECK(pressure(folder / "run/frames.h5", "000001").size() == 2);
     CHECK_THROWS(pressure(folder / "run/frames.h5", "000002"));
     for (int n = 2; n < 4; ++n) results.write_frame(small_frame(n, n));
+    results.wait();
     CHECK(read_file(folder / "run/frames.xmf") == before);
   }
 
@@ -135,7 +139,10 @@ TEST_SUITE("unit") {
     const auto refused = [&](auto change) {
       OutputFrame frame = small_frame(0, 0);
       change(frame.bodies[0]);
-      return message_of<std::invalid_argument>([&] { results.write_frame(frame); });
+      return message_of<std::invalid_argument>([&] {
+        results.write_frame(frame);
+        results.wait();
+      });
     };
     CHECK(refused([](auto& b) { b.fields[0].values.pop_back(); }) ==
           "frame: body 'rod': wrong number of values of 'pressure'");
