@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/stability.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/simulation/body.hpp"
 
@@ -29,7 +30,7 @@ constexpr double kProgram = 40e6;
 constexpr double kCopies = 2.1;      // of the columns, while frames and checkpoints are written
 constexpr double kDerived = 8;       // numbers of a frame beside the columns: stress, places
 constexpr double kColumns = 40;      // of the history
-constexpr double kShock = 1.35;      // of the sound speed at rest
+constexpr double kShock = 1.35;      // sound speeds: edges, viscosity and a moderate shock
 constexpr double kMostSteps = 1e12;  // years for a single point
 
 /// Lattice cells of the body's box, of which the filler keeps a table.
@@ -100,7 +101,7 @@ Forecast forecast(const Scene& scene) {
     for (const Boundary& side : axis)
       for (const double v : side.velocity) fastest = std::max(fastest, std::fabs(v));
   out.memory = kProgram + holding + std::max(making, kCopies * columns);
-  count_steps(scene, (fastest + kShock * signal) / scene.grid.cell, out);
+  count_steps(scene, std::max(fastest / kMostTravel, kShock * signal) / scene.grid.cell, out);
   const double every = scene.output.history;
   const double rows = std::min(out.steps, every > 0 ? scene.time.end / every : out.steps) + 1;
   double measures = 1;

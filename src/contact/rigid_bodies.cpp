@@ -6,6 +6,7 @@
 
 #include "krater/contact/rigid.hpp"
 #include "krater/core/errors.hpp"
+#include "krater/core/stability.hpp"
 
 namespace krater {
 
@@ -88,8 +89,9 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
       outside = outside || low || high;
       if ((low || high) && !boundary.is_open(a, low ? 0 : 1))
         sides_[p] = static_cast<signed char>(1 + 2 * a + (low ? 0 : 1));
-      if (std::abs(v[a]) * geometry.inv_h > result.max_rate) {
-        result.max_rate = std::abs(v[a]) * geometry.inv_h;
+      const double rate = std::abs(v[a]) * geometry.inv_h / kMostTravel;
+      if (rate > result.max_rate) {
+        result.max_rate = rate;
         result.limiting_point = i;
       }
     }

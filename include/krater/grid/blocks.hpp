@@ -64,7 +64,7 @@ struct Outbox {
 
 /// What one sweep over a patch leaves behind; combined over patches in patch order.
 struct PatchResult {
-  double max_rate = 0;                    ///< max (|v| + signal speed)/h, or |tr D|/0.1 [1/s]
+  double max_rate = 0;                    ///< 1/dt at CFL 1, theory 12 [1/s]
   int limiter = 0;                        ///< 0 wave, 1 flow, 2 dilatation
   int limiting_point = 0;                 ///< index in the patch; after the gather the point's id
   double kinetic = 0;                     ///< [J], affine part included

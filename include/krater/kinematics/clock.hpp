@@ -12,7 +12,7 @@
 namespace krater {
 
 struct StepBounds {
-  double cfl = 0.5;
+  double cfl = 0.9;
   double first = 0;  ///< 0: automatic [s]
   double least = 0;  ///< 0: 1e-6 of the first [s]
   double most = 0;   ///< 0: none [s]

@@ -106,7 +106,7 @@ KRATER_FIELD(DamageGrowth, "damage_growth", "1", 4,
 KRATER_FIELD(SnapBack, "snap_back", "1", 1, "1 where softening snapped back in the step");
 KRATER_FIELD(CarriedLoss, "carried_loss", "1", 2,
              "1 - w of the pressure, in tension and in compression (theory 9)");
-KRATER_FIELD(SignalSpeed, "signal_speed", "m/s", 1, "Qv + sqrt(Qv^2 + c_L^2), theory 12");
+KRATER_FIELD(SignalSpeed, "signal_speed", "m/s", 1, "of the stiffest motion, theory 12");
 
 #undef KRATER_FIELD
 

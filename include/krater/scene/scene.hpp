@@ -30,7 +30,7 @@ struct GridOptions {
 struct TimeOptions {
   std::string where;
   double end = 0;  ///< [s]
-  double cfl = 0.5;
+  double cfl = 0.9;
   double max_step = 0;    ///< [s], 0: none
   double min_step = 0;    ///< [s], 0: 1e-6 of the first step
   double first_step = 0;  ///< [s], 0: automatic

@@ -11,7 +11,8 @@ namespace krater::scene {
 namespace {
 
 constexpr ParameterInfo kEnd{"end", "s", Range::positive, kRequired, "time at which the run ends"};
-constexpr ParameterInfo kCfl{"cfl", "1", Range::positive, 0.5, "Courant number, at most 1"};
+constexpr ParameterInfo kCfl{"cfl", "1", Range::positive, 0.9,
+                             "share of the limit of stability, at most 1"};
 constexpr ParameterInfo kMaxStep{"max_step", "s", Range::non_negative, 0,
                                  "longest time step, 0: any"};
 constexpr ParameterInfo kMinStep{"min_step", "s", Range::non_negative, 0,

@@ -172,3 +172,40 @@ def explosion():
     start = rows["kinetic_energy"][0]
     for name in ("kinetic_energy", "internal_energy", "total_energy"):
         check(np.max(np.abs(rows[name])) < 2 * start, f"largest {name}", np.max(np.abs(rows[name])) / start)
+
+
+BLOCK = """
+title: A free block that shakes
+frame: 3d
+grid: {{cell: 10 mm, box: {{min: [0, 0, 0], max: [200 mm, 200 mm, 200 mm]}}}}
+time: {{end: 0.6 ms}}
+materials:
+  m: {{density: 2700, {material}}}
+bodies:
+  block:
+    material: m
+    shape: {{box: {{min: [{at}, {at}, {at}], max: [{to}, {to}, {to}]}}}}
+    velocity: ["5*sin(101*x)*cos(83*z) + 2*sin(300*x)", "5*sin(101*x)*cos(83*z) + 2*sin(300*y)", "5*sin(101*x)*cos(83*z) + 2*sin(300*z)"]
+output: {{frames: 0, history: 30 us}}
+"""
+BLOCKS = {
+    "elastic, nu = 0.3": "youngs_modulus: 70 GPa, poisson_ratio: 0.3, eos: linear, strength: {von_mises: {Y: 1 TPa, H: 0}}",
+    "elastic, nu = 0.49": "youngs_modulus: 70 GPa, poisson_ratio: 0.49, eos: linear, strength: {von_mises: {Y: 1 TPa, H: 0}}",
+    "viscous": "youngs_modulus: 70 GPa, poisson_ratio: 0.3, eos: linear, strength: {von_mises: {Y: 1 TPa, H: 0}}, viscosity: {}",
+}
+
+
+@fault("stable-step", "at CFL 1 the corners of a free block do not grow, wherever they lie between the nodes")
+def stable_step():
+    for name, material in BLOCKS.items():
+        for place in (0.125, 0.25):
+            at = 60 + 10 * place
+            with open("block.yaml", "w", encoding="utf-8") as file:
+                file.write(BLOCK.format(material=material, at=f"{at} mm", to=f"{at + 40} mm"))
+            left = []
+            for cfl in (0.3, 1):
+                done = krater("run", "./block.yaml", "-o", "out", "-j", 1, "--quiet", "--set", f"time.cfl={cfl}", timeout=60)
+                check(done.returncode == 0, f"{name}, {place} cells, CFL {cfl}: exit code", done.text[-200:])
+                rows = history("out")
+                left.append(rows["kinetic_energy"][-1] / rows["kinetic_energy"][0])
+            check(abs(left[1] - left[0]) < 0.02, f"{name}, {place} cells: motion left", left)

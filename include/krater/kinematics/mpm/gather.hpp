@@ -11,6 +11,7 @@
 /// <r>. An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not
 /// strain: alone its own pressure would expand it for ever. A failed one, which no tension holds,
 /// needs more company to carry L: two on their own would still expand (0.4).
+#include "krater/core/stability.hpp"
 #include "krater/kinematics/mpm/ledger.hpp"
 #include "krater/kinematics/mpm/scatter.hpp"
 
@@ -374,17 +375,17 @@ void after_stages(Patch& patch, const GatherViews& view, const SweepSettings& s,
     if (indicator) view.indicator.set(g, select(c > Pack(0.0), expansion * grid.h / c, Pack(0.0)));
     Pack speed = 0.0;
     Pack fastest = signal;
-    if constexpr (Configuration::fixed) {  // theory 12: h times the smallest stretch, no |v|
+    if constexpr (Configuration::fixed) {  // theory 12: h times the smallest stretch, no travel
       const ReadView F = reading(view.map);
       fastest = signal * sqrt(inverse_stretch_squared(inverse_map<Dim>(F, g)));
       const double strain = hmax(select(valid, stretch_measure<Dim>(F, g), Pack(0.0)));
       if (strain > patch.result.stretch) patch.result.stretch = strain;
     } else {
       for (int a = 0; a < Dim; ++a) speed = max(speed, abs(view.velocity(g, a)));
-      fastest = speed + signal;
     }
-    note_limit(patch.result, fastest * grid.inv_h, bits(speed > signal) != 0 ? 1 : 0, g, valid);
-    note_limit(patch.result, 10.0 * expansion, 2, g, valid);
+    note_limit(patch.result, fastest * grid.inv_h, 0, g, valid);
+    note_limit(patch.result, speed * (grid.inv_h * (1 / kMostTravel)), 1, g, valid);
+    note_limit(patch.result, expansion * (1 / kMostDilatation), 2, g, valid);
   }
 }
 

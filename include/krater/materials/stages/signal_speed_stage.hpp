@@ -2,7 +2,8 @@
 /// \file
 /// Last stage: the speed of a signal for the time step (theory 12),
 ///   c_L^2 = c^2 + 4G/(3 rho),  Qv = q_lin c + 2 q_quad l |tr D| where tr D < 0, else 0,
-///   signal speed = Qv + sqrt(Qv^2 + c_L^2),
+///   signal speed = max(sqrt(c_L^2 + c^2), Qv + sqrt(Qv^2 + c_L^2)),
+/// the first for the free edges of a body (`tools/stability.py`),
 /// and the one check that the new state is finite. Without viscosity q_lin = q_quad = 0.
 #pragma once
 
@@ -18,7 +19,7 @@ KRATER_FORCE_INLINE Real signal_speed(Real c, Real G, Real v, Real tr_D, double 
   const Real viscous = fma((2.0 * q_quad) * length, closing, q_lin * c);
   const Real Qv = select(tr_D < Real(0.0), viscous, Real(0.0));
   const Real c_L_squared = fma(c, c, (4.0 / 3.0) * G * v);
-  return Qv + sqrt(fma(Qv, Qv, c_L_squared));
+  return max(sqrt(fma(c, c, c_L_squared)), Qv + sqrt(fma(Qv, Qv, c_L_squared)));
 }
 
 class SignalSpeedStage final : public Stage {
