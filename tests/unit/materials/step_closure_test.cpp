@@ -79,8 +79,10 @@ TEST_SUITE("unit") {
   TEST_CASE("signal speed: theory 12") {
     const double rho = 8960.0, c = 3940.0, G = 46e9, h = 1e-3;
     const double c_L = std::sqrt(c * c + 4.0 * G / (3.0 * rho));
-    CHECK(signal_speed(c, G, 1.0 / rho, 1e6, 0.3, 2.0, h) == doctest::Approx(c_L).epsilon(1e-14));
-    CHECK(signal_speed(c, 0.0, 1.0 / rho, 0.0, 0.3, 2.0, h) == doctest::Approx(c).epsilon(1e-14));
+    const double edge = std::sqrt(c_L * c_L + c * c), fluid_edge = std::sqrt(2.0) * c;
+    CHECK(signal_speed(c, G, 1.0 / rho, 1e6, 0.3, 2.0, h) == doctest::Approx(edge).epsilon(1e-14));
+    CHECK(signal_speed(c, 0.0, 1.0 / rho, 0.0, 0.3, 2.0, h) ==
+          doctest::Approx(fluid_edge).epsilon(1e-14));
     const double Qv = 0.3 * c + 2.0 * 2.0 * h * 1e6;
     CHECK(signal_speed(c, G, 1.0 / rho, -1e6, 0.3, 2.0, h) ==
           doctest::Approx(Qv + std::sqrt(Qv * Qv + c_L * c_L)).epsilon(1e-14));
