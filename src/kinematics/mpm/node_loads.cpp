@@ -149,8 +149,8 @@ void NodeLoads::add_forces(double dt, double smallest_mass) {
         for (std::size_t a = 0; a < 3; ++a) node[kForce + a] += f[a] - before[a];
       }
     }
-    const bool rigid = block.field < static_cast<int>(rigid_.size()) &&
-                       rigid_[static_cast<std::size_t>(block.field)];
+    const auto field = static_cast<std::size_t>(block.field);
+    const bool rigid = field < rigid_.size() && rigid_[field];
     if (options_.damping > 0 && !rigid) damp(block, dt, smallest_mass, force);
   });
 }
