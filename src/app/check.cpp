@@ -14,7 +14,9 @@
 #include "krater/app/version.hpp"
 #include "krater/core/parallel.hpp"
 #include "krater/geometry/seeds/column.hpp"
+#include "krater/measure/gauges.hpp"
 #include "krater/measure/measurements.hpp"
+#include "krater/measure/outcomes.hpp"
 #include "krater/measure/snapshot.hpp"
 #include "krater/simulation/simulation.hpp"
 
@@ -247,7 +249,12 @@ void print_check(const RunOptions& options) {
   const Sample sample = sample_of(scene, options.output.empty() ? cost.points : 0);
   const Simulation sim{sample.scene};
   // What a run refuses before its first step.
-  Measurements{sim}.check(sim);
+  const Measurements measurements{sim};
+  measurements.check(sim);
+  std::vector<Quantity> columns = history_row(sim);
+  for (const Quantity& title : measurements.titles(scene)) columns.push_back(title);
+  Outcomes{sim, columns};
+  Gauges{sim};
   if (sample.coarser > 1) {
     require_steps(scene.time, sim.stable_step() / sample.coarser);
     for (std::size_t b = 0; b < sim.bodies().size(); ++b)

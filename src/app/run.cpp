@@ -18,6 +18,7 @@
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/measure/gauges.hpp"
 #include "krater/measure/measurements.hpp"
 #include "krater/measure/outcomes.hpp"
 #include "krater/measure/snapshot.hpp"
@@ -58,6 +59,7 @@ class Runner {
         sim_{scene_},
         measurements_{sim_},
         outcomes_{sim_, history_titles()},
+        gauges_{sim_},
         results_{options.output.empty() ? default_output(options.scene) : options.output,
                  !options.restart.empty()} {}
 
@@ -89,6 +91,7 @@ class Runner {
   Simulation sim_;
   Measurements measurements_;
   Outcomes outcomes_;
+  Gauges gauges_;
   ResultsFolder results_;
   FolderLock lock_;
   int frame_ = 0;
@@ -153,6 +156,7 @@ void Runner::resume() {
   }
   measurements_.restore(checkpoint, sim_.scene(), changed_measures(differences));
   outcomes_.restore(checkpoint);
+  gauges_.restore(checkpoint);
   for (const SceneDifference& d : differences) changed_ += (changed_.empty() ? "" : ", ") + d.path;
   const CheckpointBlob* counters = checkpoint.find("output");
   if (counters != nullptr) frame_ = static_cast<int>(counters->integers.at(0));
@@ -187,6 +191,7 @@ void Runner::write_checkpoint() {
   c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
   measurements_.save(c, scene_);
   outcomes_.save(c);
+  gauges_.save(c);
   c.blobs.push_back({"scene", {}, {}, {}, scene_.resolved});
   results_.write_checkpoint(c);
 }
@@ -214,6 +219,7 @@ void Runner::write_due(Schedule& frames, Schedule& history) {
     results_.write_history(columns);
     history.advance(sim_.time());
   }
+  gauges_.look(sim_);
   const bool ends = outcomes_.look(sim_, columns);
   if (ends && !row) write_history();
   if (ends || frames.due(sim_.time())) write_frame(sim_.time());
@@ -321,6 +327,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["steps"] = Json::of(sim_.steps());
   measurements_.summarize(sim_, j);
   outcomes_.summarize(sim_, j);
+  gauges_.summarize(j);
   std::string names;
   for (const std::string& name : measurements_.without_points())
     names += (names.empty() ? "" : ", ") + name;
@@ -362,6 +369,7 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   Json s = summary(status, progress.seconds());
   if (!message.empty()) s["message"] = Json::of(message);
   results_.write_summary(s);
+  gauges_.write(results_);
   results_.flush();
   for (const std::string& line : outcomes_.sentences()) tell(line);
   if (outcomes_.answered())

@@ -17,6 +17,7 @@
 #include "krater/kinematics/mpm/load_options.hpp"
 #include "krater/kinematics/mpm/options.hpp"
 #include "krater/materials/stage.hpp"
+#include "krater/scene/gauges.hpp"
 #include "krater/scene/measures.hpp"
 #include "krater/scene/outcomes.hpp"
 
@@ -121,6 +122,7 @@ struct Scene {
   LoadOptions loads;
   std::vector<MeasureOptions> measures;
   std::vector<OutcomeOptions> outcomes;
+  std::vector<GaugeOptions> gauges;
   StopOptions stop;
   OutputOptions output;
   std::vector<std::string> notes;  ///< remarks for the user (r_min: axis ignored in 3d, ...)

@@ -41,7 +41,7 @@ void require_blocks(const Node& tree, Block& root) {
   if (framed) return;
   for (const char* key :
        {"title", "frame", "grid", "time", "method", "materials", "bodies", "contact", "body_force",
-        "damping", "loads", "output", "measures", "outcomes", "references"}) {
+        "damping", "loads", "output", "measures", "outcomes", "gauges", "references"}) {
     root.find(key);
   }
   root.finish();
@@ -49,6 +49,7 @@ void require_blocks(const Node& tree, Block& root) {
 
 /// What the run is for: the fates of projectiles, and when it may end for them.
 void read_answers(Block& root, Reading& reading) {
+  root.record("gauges", read_gauges(root.find_block("gauges"), reading));
   root.record("outcomes", read_outcomes(root.find_block("outcomes"), reading));
   const Node* time = root.find("time");
   const Node* stop = time ? time->find("stop_when") : nullptr;

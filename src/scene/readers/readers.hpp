@@ -53,6 +53,7 @@ void read_loads(Block& root, Reading& reading);
 /// `outcomes:` and `time.stop_when`, which may add one; after read_bodies.
 Node read_outcomes(const Node* node, Reading& reading);
 void read_stop(const Node& node, Reading& reading);
+Node read_gauges(const Node* node, Reading& reading);
 Node read_references(const Node* node, Reading& reading);  ///< after read_measures
 
 /// Index of the body that a node names; -1 after a problem.

@@ -18,9 +18,9 @@ constexpr std::array<const char*, 2> kDamageSettings{"coupling", "degrade_pressu
 /// Maps whose single member is a choice: naming another one replaces the first instead of joining
 /// it.
 bool is_choice(const std::string& key) {
-  static const std::array<const char*, 10> choices{"eos",       "strength", "damage",   "model",
-                                                   "heating",   "shape",    "transfer", "path",
-                                                   "reference", "stop_when"};
+  static const std::array<const char*, 11> choices{"eos",       "strength",  "damage",   "model",
+                                                   "heating",   "shape",     "transfer", "path",
+                                                   "reference", "stop_when", "filter"};
   static const std::array<const char*, 4> axes{"x_", "y_", "z_", "r_"};
   const bool side = key.size() == 5 && std::any_of(axes.begin(), axes.end(), [&](const char* axis) {
                       return key.compare(0, 2, axis) == 0;

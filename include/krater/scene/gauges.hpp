@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file scene/gauges.hpp
+/// Gauges of a scene: what is recorded at a point, by its own clock (measure/gauges.hpp).
+#include <array>
+#include <string>
+#include <vector>
+
+namespace krater {
+
+enum class GaugeFilter { none, butterworth, moving_mean };
+
+struct GaugeOptions {
+  std::string name, where;
+  int body = -1;
+  bool fixed = false;                     ///< in space; else it goes with the material
+  std::vector<std::array<double, 3>> at;  ///< along the grid axes, at the start [m]
+  std::vector<std::string> fields;
+  double every = 0;  ///< [s] between samples
+  GaugeFilter filter = GaugeFilter::none;
+  double frequency = 0;     ///< of -3 dB [Hz]; moving_mean: 1 over its length
+  std::string filter_name;  ///< "cfc 1000"
+};
+
+}  // namespace krater
