@@ -2,7 +2,6 @@
 #include "krater/app/run.hpp"
 
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <limits>
 
@@ -10,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/continuation.hpp"
+#include "app/signals.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
 #include "krater/app/machine.hpp"
@@ -29,23 +29,6 @@ namespace krater {
 namespace {
 
 constexpr std::size_t kListed = 20;  // keys that differ in one message
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Heard between steps; where a step does not end, the third signal ends the program.
-extern "C" void on_signal(int number) {
-  interrupted = interrupted + 1;
-  if (interrupted < 3) return;
-  std::signal(number, SIG_DFL);
-  std::raise(number);
-}
-
-/// Not before the set-up is done: until then a signal ends the program, and nothing is lost.
-void listen_to_signals() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-}
 
 std::string default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem().string() + "_out";
@@ -116,6 +99,7 @@ void Runner::begin() {
     start_log();
     if (options_.restart.empty()) {
       write_frame(sim_.time());
+      results_.wait();  // whenever it is killed, a run has its first frame
       write_history();
     }
     write_checkpoint();

@@ -164,7 +164,7 @@ TEST_SUITE("verification") {
         "frame: plane_strain\n"
         "grid: {cell: 0.01, box: {min: [0, 0], max: [0.04, 0.2]}, "
         "boundary: {x_min: symmetry, x_max: symmetry, z_min: symmetry}}\n"
-        "time: {end: 2.3e-5, first_step: 2.3e-5, cfl: 1}\n"
+        "time: {end: 1.65e-5, first_step: 1.65e-5, cfl: 1}\n"
         "method: {transfer: flip}\n"
         "materials: {gas: {density: 1000, eos: {ideal_gas: {gamma: 1.4, initial_pressure: 1e8}}}}\n"
         "bodies: {gas: {material: gas, shape: {box: {min: [0, 0, 0], max: [0.04, 1, 0.1]}}, "
@@ -173,7 +173,7 @@ TEST_SUITE("verification") {
       CAPTURE(update);
       Run run = start_text(scene, {std::string{"method.update="} + update});
       const std::vector<double> before = column(run, field::Position::info, 1);
-      run_to(run, 2.3e-5);
+      run_to(run, 1.65e-5);
       CHECK(run.sim->audit().retries > 0);
       const std::vector<double> z = column(run, field::Position::info, 1),
                                 rho = column(run, field::Density::info);

@@ -7,8 +7,8 @@
 ///     memory  = points * (columns of the state, and copies of them while frames are written)
 ///     steps   = end / dt, dt = cfl h / max(2 v, 1.35 c), more where output times cut them
 ///
-/// c: sound speed at rest, 1.35: viscosity and a shock of moderate strength. Rates are those of a 2020s server
-/// core: times are good to a factor of about two.
+/// c: sound speed at rest, 1.35: viscosity and a shock of moderate strength. Rates are those of a
+/// 2020s server core: times are good to a factor of about two.
 #include <string>
 
 #include "krater/scene/scene.hpp"

@@ -65,6 +65,14 @@ void check_method(Reading& reading) {
          "but its loss; use update: usl, or transfer: tflip",
          reading);
   }
+  for (const auto& sides : reading.scene.grid.boundary)
+    for (const Boundary& side : sides)
+      if (method.transfer == Transfer::xpic && side.drives())
+        fail(
+            "method.transfer",
+            "a side with a velocity does not go with transfer xpic: its filter would undo what the "
+            "side drives; use tflip, flip or apic",
+            reading);
   if (method.transfer == Transfer::xpic && usl) {
     notes.push_back(
         "method: xpic takes rotation away: a spinning disc keeps a tenth of its angular momentum "

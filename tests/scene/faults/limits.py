@@ -178,7 +178,7 @@ BLOCK = """
 title: A free block that shakes
 frame: 3d
 grid: {{cell: 10 mm, box: {{min: [0, 0, 0], max: [200 mm, 200 mm, 200 mm]}}}}
-time: {{end: 0.6 ms}}
+time: {{end: 0.6 ms, energy_error: off}}
 materials:
   m: {{density: 2700, {material}}}
 bodies:

@@ -15,7 +15,7 @@ grid:
   cell: 1 mm
   box: {{min: {low}, max: {high}}}
   boundary: {{{sides}}}
-time: {{end: 12 us}}
+time: {{end: 12 us, energy_error: off}}
 method: {{stagger: false}}
 materials:
   m: {{density: 8930, bulk_modulus: 130 GPa, shear_modulus: 46 GPa, eos: linear, strength: elastic,
