@@ -79,7 +79,7 @@ class MpmStep final : public Kinematics {
   /// The step taken last, after a restart [s].
   void set_last_step(double dt) { last_step_ = dt; }
   /// Smallest mass of a point, once for all [kg].
-  void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-12 * m; }
+  void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-15 * m; }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
   void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 

@@ -4,7 +4,7 @@
 /// Work on node blocks: the sum of the tiles in their fixed order, and the momentum update (theory
 /// 2, CCF (1))
 ///   v- = p/m,  dv = dt f/m,  v+ = v- + dv
-/// Nodes lighter than 1e-12 of the lightest point get no force (f/m means nothing there) but keep
+/// Nodes lighter than 1e-15 of the lightest point get no force (f/m means nothing there) but keep
 /// v = p/m, so that no momentum is lost; a threshold in kg would break other unit scales.
 #include "krater/kinematics/mpm/gather.hpp"
 
