@@ -6,7 +6,6 @@ import os
 import h5py
 import numpy as np
 
-from validate_runs import digest
 
 # Shock laws of cards of inputs/materials, and their heat capacities [J/(kg K)]; tantalum's from memory.
 MATERIALS = {
@@ -16,17 +15,6 @@ MATERIALS = {
     "tantalum": {"rho0": 16690.0, "c0": 3410.0, "s": 1.2, "Gamma0": 1.67, "c_v": 140.0},
 }
 LENGTH = 20e-3
-
-
-def run(study, label, text, seconds=0.0, settings=()):
-    """Run a scene of text."""
-    folder = os.path.join(study.folder, "runs_out")
-    os.makedirs(folder, exist_ok=True)
-    study.scene = os.path.join(folder, label + ".yaml")
-    with open(study.scene, "w", encoding="utf-8") as file:
-        file.write(text)
-    study.identity = digest(study.krater, study.scene)
-    return study.run(label, settings, seconds)
 
 
 def behind_shock(x, speed, start=300.0):

@@ -108,6 +108,16 @@ class Study:
         print(f"{self.name}: about {seconds:.0f} s on 2 quiet cores; {self.krater}; results in "
               f"{os.path.join(self.folder, 'runs_out')}", flush=True)
 
+    def run_text(self, label, text, seconds=0.0, settings=()):
+        """run() of a scene given as text, which becomes the study's."""
+        folder = os.path.join(self.folder, "runs_out")
+        os.makedirs(folder, exist_ok=True)
+        self.scene = os.path.join(folder, label + ".yaml")
+        with open(self.scene, "w", encoding="utf-8") as file:
+            file.write(text)
+        self.identity = digest(self.krater, self.scene)
+        return self.run(label, settings, seconds)
+
     def run(self, label, settings=(), seconds=0.0, threads=1, without=()):
         """Run `label` with --set options; None if it fails or the budget does not allow it. `without`: lines
         of the scene to leave out, for a block whose absence is the switch."""

@@ -47,7 +47,7 @@ def shocks(study):
             found = []
             for cells in CELLS:
                 label = f"shock_{name.replace(' ', '_')}_{speed}_{cells}"
-                done = scenes.run(study, label, scenes.strip(x, speed, cells), 3)
+                done = study.run_text(label, scenes.strip(x, speed, cells), 3)
                 found.append(done and exact.plateau(done, x, speed, scenes.LENGTH / cells))
             if None in found:
                 continue
@@ -70,7 +70,7 @@ def noh(study):
     for kind, all_cells in NOH.items():
         found = {}
         for cells in all_cells:
-            done = scenes.run(study, f"noh_{kind}_{cells}", scenes.noh(kind, cells), cells ** 2 / 2000)
+            done = study.run_text(f"noh_{kind}_{cells}", scenes.noh(kind, cells), cells ** 2 / 2000)
             if done:
                 found[cells] = exact.noh_errors(done, kind, 1 / cells)
         rho, e = ([f[key] for f in found.values()] for key in ("rho", "e"))
@@ -87,7 +87,7 @@ def tube_and_blast(study):
     study.add("## Sod's tube", "q_lin 0.3, q_quad 2; L1 of means over cells by that of the solution at t = 0.2.")
     found = {}
     for cells in SOD:
-        done = scenes.run(study, f"sod_{cells}", scenes.sod(cells), cells / 50)
+        done = study.run_text(f"sod_{cells}", scenes.sod(cells), cells / 50)
         if done:
             found[cells] = exact.sod_errors(done, 1 / cells)
     rho, e = ([f[key] for f in found.values()] for key in ("rho", "e"))
@@ -101,7 +101,7 @@ def tube_and_blast(study):
     for cell in SEDOV:
         path = os.path.join(ROOT, "tests", "scene", "faults", "b11-sedov-energy.yaml")
         with open(path, encoding="utf-8") as file:
-            done = scenes.run(study, f"sedov_{cell}", file.read(), 0.01 / cell ** 2, (f"grid.cell={cell}",))
+            done = study.run_text(f"sedov_{cell}", file.read(), 0.01 / cell ** 2, (f"grid.cell={cell}",))
         if done:
             f = exact.sedov(done, cell)
             rows.append([cell, f"{f['front']:.3f}", f"{f['rho']:.2f}", f"{f['p']:.4f}", f"{f['volume']:.4f}",
@@ -118,7 +118,7 @@ def observers(study):
               "One step from any state is invariant to 2e-10 (`verification/ledger`); over a run the points cross the "
               "grid's lines at other times, so their noise differs, but not their mean.")
     x = scenes.MATERIALS["aluminium 2024"]
-    rest, moving = (scenes.run(study, f"boost_{boost:g}", scenes.strip(x, 3000, 100, boost), 10)
+    rest, moving = (study.run_text(f"boost_{boost:g}", scenes.strip(x, 3000, 100, boost), 10)
                     for boost in (0.0, BOOST))
     if rest and moving:
         at_rest, in_motion, apart, noise = exact.boosted(rest, moving, x, 3000)
@@ -129,7 +129,7 @@ def observers(study):
               "its points should stay 1.")
     rows = []
     for cells in EXPANSION:
-        done = scenes.run(study, f"expansion_{cells}", scenes.expansion(cells), 1)
+        done = study.run_text(f"expansion_{cells}", scenes.expansion(cells), 1)
         if done:
             mean, least, most, outer, outermost = exact.entropy_gain(done)
             heat = done.audit("transfer_loss") + done.audit("transfer_gain")
@@ -148,7 +148,7 @@ def spin(study):
     rows = []
     for name, method in SPIN.items():
         for cfl in (0.2, 0.5, 0.8):
-            done = scenes.run(study, f"spin_{name.replace(' ', '_')}_{cfl}", scenes.spin(20, cfl, method), 5)
+            done = study.run_text(f"spin_{name.replace(' ', '_')}_{cfl}", scenes.spin(20, cfl, method), 5)
             if done:
                 h = done.history()
                 spun, kinetic, total = (100 * (h[k][-1] / h[k][0] - 1) for k in
@@ -164,7 +164,7 @@ def whipple(study):
               "gap of 50 mm; contact of three bodies, Johnson-Cook strength and failure, at 25 µs. Energies in % of "
               "the start; "
               "momentum of the wall by that of the sphere.")
-    runs = {cell: scenes.run(study, f"whipple_{cell}", scenes.WHIPPLE.format(cell=cell), 5 * (0.5 / cell) ** 2.3)
+    runs = {cell: study.run_text(f"whipple_{cell}", scenes.WHIPPLE.format(cell=cell), 5 * (0.5 / cell) ** 2.3)
             for cell in WHIPPLE}
     rows = []
     for cell, done in runs.items():

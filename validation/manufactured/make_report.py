@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
-from validate_runs import Study, digest  # noqa: E402
+from validate_runs import Study  # noqa: E402
 
 ESTIMATED_SECONDS = 200  # on two quiet cores
 
@@ -97,16 +97,6 @@ output: {{frames: 0.5, history: 0.05, fields: [reference_position, density]}}
 """
 
 
-def run(study, label, text, seconds):
-    folder = os.path.join(study.folder, "runs_out")
-    os.makedirs(folder, exist_ok=True)
-    study.scene = os.path.join(folder, label + ".yaml")
-    with open(study.scene, "w", encoding="utf-8") as file:
-        file.write(text)
-    study.identity = digest(study.krater, study.scene)
-    return study.run(label, (), seconds)
-
-
 def frames(result, body):
     with h5py.File(os.path.join(result.folder, "frames.h5"), "r") as file:
         for name in sorted(file["frames"]):
@@ -164,7 +154,7 @@ def bars(study):
     for k, (axes, amplitude) in enumerate(zip(panels, AMPLITUDES)):
         rows = []
         for (name, method), mark in zip(SCHEMES.items(), "os^Dv<>P"):
-            errors = [bar_error(run(study, "bar_" + "".join(c if c.isalnum() else "_" for c in name)
+            errors = [bar_error(study.run_text("bar_" + "".join(c if c.isalnum() else "_" for c in name)
                                     + f"_{amplitude:g}_{n}", bar(n, amplitude, method), 0.4 * n / 16), amplitude)
                       for n in CELLS]
             rows.append([name, *with_orders(CELLS, errors)])
@@ -194,7 +184,7 @@ def vortices(study):
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 6), layout="constrained")
     rows, last = [], None
     for amplitude, points, cells in VORTEX:
-        results = [run(study, f"vortex_{amplitude:.2f}_{points}_{n}", vortex(n, amplitude, points),
+        results = [study.run_text(f"vortex_{amplitude:.2f}_{points}_{n}", vortex(n, amplitude, points),
                        (points / 4) ** 2 * (n / 16) ** 3 * 12 * (3 if amplitude == 1 else 1)) for n in cells]
         errors = [vortex_errors(r, amplitude) for r in results]
         name = f"A = {amplitude:.3g}, {points} points"

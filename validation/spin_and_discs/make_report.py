@@ -66,16 +66,6 @@ output: {{frames: 1000, history: 0.5}}
 """
 
 
-def run(study, label, text, seconds):
-    folder = os.path.join(study.folder, "runs_out")
-    os.makedirs(folder, exist_ok=True)
-    study.scene = os.path.join(folder, label + ".yaml")
-    with open(study.scene, "w", encoding="utf-8") as file:
-        file.write(text)
-    study.identity = digest(study.krater, study.scene)
-    return study.run(label, (), seconds)
-
-
 def change(history, name, start):
     """(per cent at the end, greatest per cent over the run)."""
     values = 100 * (history[name] / start - 1)
@@ -93,7 +83,7 @@ def spins(study):
                 row = [name]
                 for cfl in CFLS:
                     label = f"spin_{law}_{cells}_{cfl}_" + "".join(c if c.isalnum() else "_" for c in name)
-                    result = run(study, label, disc(cells, cfl, method, law), (cells / 20) ** 3 * 0.6 / cfl)
+                    result = study.run_text(label, disc(cells, cfl, method, law), (cells / 20) ** 3 * 0.6 / cfl)
                     if result is None:
                         row += ["failed", "failed"]
                         continue
