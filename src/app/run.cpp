@@ -240,6 +240,7 @@ int Runner::go() {
       tell_progress(progress);
       watch_time_step();
     }
+    if (!sim_.done()) sim_.judge_energy(true);  // the answer was there before the end
   } catch (const NumericalError& e) {
     return fail(e.what(), progress);
   }

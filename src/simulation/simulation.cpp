@@ -272,11 +272,15 @@ void Simulation::step(double until) {
     fail_energy(e);
   }
   watch(*this, warnings_);
+  judge_energy(done());
+}
+
+void Simulation::judge_energy(bool last) const {
   try {
     // musl and usf strain what the forces did not work on: heat there is not what was lost.
     Audit judged = audit_;
     if (scene_.method.update != Update::usl) judged.numerical_heat = 0;
-    EnergyWatch::check_error(judged, scene_.time.energy_error, time(), done());
+    EnergyWatch::check_error(judged, scene_.time.energy_error, time(), last);
   } catch (const EnergyError& e) {  // the state is whole: its checkpoint may go on regardless
     throw NumericalError(fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(),
                                      time(), steps()));

@@ -69,6 +69,9 @@ class Simulation {
   const RigidBodies& rigid() const { return rigid_; }
   const MpmStep& stepper() const { return *step_; }
   const Audit& audit() const { return audit_; }
+  /// Throws NumericalError when more energy is unphysical than the scene allows. `last`: the run
+  /// ends.
+  void judge_energy(bool last) const;
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }

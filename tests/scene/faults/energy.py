@@ -71,4 +71,7 @@ def piston_start():
     check(done.returncode == 0, "it runs to its end", done.stderr)
     error = history("out")["energy_error_fraction"]
     check(max(error[:5]) > 0.3, "the first layer takes half", max(error[:5]))
+    done = krater("run", scene("energy"), "-o", "early", "-j", 1, "--quiet", "--set",
+                  "time.stop_when=energy_error_fraction > 0.3")
+    check(done.returncode == 3 and "10 % allowed" in done.stderr, "nor is it spared by an end of its own", done.stderr)
     check(error[-1] < 0.01, "a hundredth at the end", error[-1])
