@@ -12,7 +12,7 @@ void Audit::book_step(const StepHeat& heat) {
   transfer_gain += heat.taken;
   contact_heat += heat.contact;
   wall_heat += heat.walls;
-  numerical_heat += heat.numerical;
+  find_unfelt();
   carried = heat.carried;
   largest_carried = std::max(largest_carried, -carried);
   carriers += heat.carriers;

@@ -112,6 +112,10 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   const Totals start = totals();
   audit_.kinetic = audit_.initial_kinetic = start.kinetic;
   audit_.internal = audit_.initial_internal = start.internal;
+  for (std::size_t b = 0; b < kernel_data_.size(); ++b)
+    if (kernel_data_[b].heat_floor == nullptr)
+      audit_.unfelt_start += totals(static_cast<int>(b)).internal;
+  audit_.unfelt = audit_.unfelt_start;
   audit_.peak_energy = audit_.energy();
 }
 
@@ -277,10 +281,7 @@ void Simulation::step(double until) {
 
 void Simulation::judge_energy(bool last) const {
   try {
-    // musl and usf strain what the forces did not work on: heat there is not what was lost.
-    Audit judged = audit_;
-    if (scene_.method.update != Update::usl) judged.numerical_heat = 0;
-    EnergyWatch::check_error(judged, scene_.time.energy_error, time(), last);
+    EnergyWatch::check_error(audit_, scene_.time.energy_error, time(), last);
   } catch (const EnergyError& e) {  // the state is whole: its checkpoint may go on regardless
     throw NumericalError(fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(),
                                      time(), steps()));

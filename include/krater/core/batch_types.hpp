@@ -27,6 +27,8 @@ struct Ledger {
   double plastic_work = 0;     ///< [J]
   double viscous_work = 0;     ///< [J]
   double plastic_heating = 0;  ///< [J] part of plastic work booked as temperature
+  /// [J] stress power by the strain of the laws, of laws whose pressure does not need the energy.
+  double barotropic_work = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, unconverged = 0;  ///< events counted
   double failures = 0, snap_backs = 0;  ///< points that failed; of these by snap-back
   double spalls = 0;                    ///< updates in which the tension was cut off

@@ -35,8 +35,11 @@ struct Audit {
   /// Sums over cells and steps of what the ledger gave as heat, and took back (negative) [J];
   /// contact and walls apart.
   double transfer_loss = 0, transfer_gain = 0;
-  double numerical_heat = 0;  ///< of these, in matter whose pressure does not know its energy
-  double carried = 0;         ///< heat that could not be taken, owed by points now (negative) [J]
+  double numerical_heat = 0;  ///< in matter whose pressure does not know its energy, find_unfelt()
+  /// Of such matter: internal energy now, at the start, and what went with removed points; the
+  /// stress power of its laws so far, and by how much that is ahead of the velocities [J].
+  double unfelt = 0, unfelt_start = 0, unfelt_removed = 0, law_work = 0, law_lead = 0;
+  double carried = 0;  ///< heat that could not be taken, owed by points now (negative) [J]
   double largest_carried = 0, carriers = 0;  ///< the most so far; cells and steps that came short
   double contact_heat = 0;   ///< what contact took from motion, friction included [J]
   double friction_work = 0;  ///< of tangential impulses, negative [J]
@@ -64,11 +67,20 @@ struct Audit {
   /// included.
   struct StepHeat {
     double given = 0, taken = 0, contact = 0, walls = 0;
-    double numerical = 0;  ///< of given and taken, where the pressure does not know the energy
     double carried = 0, carriers = 0;
   };
   void book_step(const StepHeat& heat);
   void book_events(const Ledger& ledger);
+  /// What such matter holds beyond the work of its own laws: an elastic law can give back what was
+  /// done on it and no more.
+  void find_unfelt() {
+    numerical_heat = (unfelt + unfelt_removed - unfelt_start) - (law_work - law_lead);
+  }
+  /// Work of these laws in a step, and how much of it lies ahead of the velocities.
+  void book_laws(double work, double share_ahead) {
+    law_work += work;
+    law_lead = share_ahead * work;
+  }
   /// Walls that acted as body forces on points (fixed reference) during dt; `alone`: no other body
   /// force did, so that their work can be told apart.
   void book_point_walls(const std::array<double, 3>& force, double dt, bool alone);
@@ -88,9 +100,9 @@ struct Audit {
   /// none of it: behind a shock the balances of mass, momentum and energy say how much there must
   /// be, however it was made.
   std::array<double, 4> unphysical() const {
-    const double unfelt =
+    const double useless =
         numerical_heat > 0 ? std::max(0.0, numerical_heat + friction_work) : numerical_heat;
-    return {residual(kinetic, internal), unfelt, carried, rigid_loss};
+    return {residual(kinetic, internal), useless, carried, rigid_loss};
   }
   /// All of it as magnitudes, by the greatest energy that was in the scene so far: at the start, or
   /// brought by loads and sides.
@@ -112,6 +124,11 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("transfer_loss", a.transfer_loss);
   visit("transfer_gain", a.transfer_gain);
   visit("numerical_heat", a.numerical_heat);
+  visit("unfelt", a.unfelt);
+  visit("unfelt_start", a.unfelt_start);
+  visit("unfelt_removed", a.unfelt_removed);
+  visit("law_work", a.law_work);
+  visit("law_lead", a.law_lead);
   visit("carried", a.carried);
   visit("largest_carried", a.largest_carried);
   visit("carriers", a.carriers);

@@ -343,10 +343,17 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
 
 void MpmStep::combine_patches(GatherPart part) {
   const bool forces_worked = part != GatherPart::strain_move && part != GatherPart::strain_only;
-  audit_.kinetic = audit_.internal = 0;
+  const bool strains = part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
+                       part != GatherPart::keep_only;
+  audit_.kinetic = audit_.internal = audit_.unfelt = 0;
+  double law_work = 0;
   limit_ = {};
   for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
     const PatchResult& r = grid_.patches()[p].result;
+    if (feels_no_energy(p)) {
+      audit_.unfelt += r.internal;
+      law_work += r.ledger.barotropic_work;
+    }
     audit_.kinetic += r.kinetic;
     audit_.internal += r.internal;
     if (forces_worked) {
@@ -354,8 +361,6 @@ void MpmStep::combine_patches(GatherPart part) {
       for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += r.cut_impulse[a];
       heat_.given += r.heat_given;
       heat_.taken += r.heat_taken;
-      if (bodies_[static_cast<std::size_t>(grid_.patches()[p].body)].heat_floor == nullptr)
-        heat_.numerical += r.heat_given + r.heat_taken;
       heat_.carried += r.carried;
       heat_.carriers += r.carriers;
     }
@@ -363,6 +368,8 @@ void MpmStep::combine_patches(GatherPart part) {
     if (r.max_rate > limit_.rate)
       limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};
   }
+  // e is that of the middle of a step; the laws are half a step ahead of it, under usf behind.
+  if (strains) audit_.book_laws(law_work, method_.update == Update::usf ? -0.5 : 0.5);
 }
 
 void MpmStep::throw_faults() const {
@@ -372,7 +379,10 @@ void MpmStep::throw_faults() const {
 }
 
 void MpmStep::migrate() {
-  for (const Removed& r : removed_) audit_.book_removed(r);
+  for (std::size_t p = 0; p < removed_.size(); ++p) {
+    audit_.book_removed(removed_[p]);
+    if (removed_[p].count > 0 && feels_no_energy(p)) audit_.unfelt_removed += removed_[p].internal;
+  }
   const std::vector<int> losing = rigid_losses();
   bool changed = deliver(grid_, bodies_);
   for (const int b : losing)  // what is left moves on as it did

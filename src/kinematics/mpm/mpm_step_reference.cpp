@@ -41,6 +41,7 @@ bool MpmStep::renew_references() {
     audit_.internal += heat;
     (heat > 0 ? audit_.transfer_loss : audit_.transfer_gain) += heat;
     audit_.book_removed(r);
+    if (bodies_[b].heat_floor == nullptr) audit_.unfelt_removed += r.internal;
     audit_.new_references += 1;
     renewed = true;
   }

@@ -128,6 +128,10 @@ class MpmStep final : public Kinematics {
   void correct_dilatation(const SweepSettings& s);
   void grid_to_particles(GatherPart part, double dt);
   void combine_patches(GatherPart part);
+  /// Of a patch: the pressure of its matter does not know its energy.
+  bool feels_no_energy(std::size_t patch) const {
+    return bodies_[static_cast<std::size_t>(grid_.patches()[patch].body)].heat_floor == nullptr;
+  }
   void provide_memory();
   void throw_faults() const;
   void migrate();

@@ -15,6 +15,7 @@ struct LinearEos {
   double per_rho0;
 
   static constexpr Family family = Family::eos;
+  static constexpr bool barotropic = true;
   static constexpr const char* name = "linear";
   static constexpr const char* equation = "p = K (rho/rho0 - 1)";
   static constexpr const char* reference = "Hooke's law for the pressure";

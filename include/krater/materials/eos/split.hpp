@@ -10,7 +10,8 @@
 /// with v = 1/rho, which is at hand and saves divisions; doubles rho0 and c0, the reference density
 /// and bulk sound speed; and, if it has a pole that it continues past,
 ///   MaskOf<Real> beyond_pole(Real rho) const                           counted by the stage
-/// A material that is not at p = e = 0 at the start has a double initial_energy.
+/// A material that is not at p = e = 0 at the start has a double initial_energy; a law without B
+/// has `static constexpr bool barotropic = true`.
 /// A law with history (materials/law_state.hpp) gives these functions by `at(state)`, and
 ///   std::array<Real, N> after(Real rho, Real v, Real e) const          the state at the end
 #pragma once
@@ -50,6 +51,12 @@ KRATER_FORCE_INLINE Cohesion<Real> cohesion(Real x) {
 template <class Law>
 concept LinearInEnergy = requires(const Law& law) {
   law.split(1.0, 1.0);
+};
+
+/// An equation of state that does not need e.
+template <class Law>
+concept Barotropic = requires {
+  requires Law::barotropic;
 };
 
 /// p = cold + thermal e near e.

@@ -84,6 +84,8 @@ class CoupledStage final : public Stage {
     const EnergyStep<Pack> step = limited(
         close_energy(update.pressure, share * p(g), e(g), dv, ahead * work), update.least, dv);
     report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
+    batch.ledger->barotropic_work +=
+        sum(view(batch, mass_)(g) * fnma(p(g) + step.pressure, 0.5 * dv, work));
     p.set(g, step.pressure);
     e.set(g, select(share > Pack(0.0), step.energy, e(g)));
   }

@@ -134,6 +134,7 @@ class EosStage final : public Stage {
         volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
         work_{layout.local_input<field::SpecificWork>(Law::name)} {
     if constexpr (carries) loss_ = layout.local_optional<field::CarriedLoss>();
+    if constexpr (Barotropic<Law>) mass_ = layout.input<field::Mass>(Law::name);
     if constexpr (parts) failed_ = layout.state<field::Failed>(0.0, Law::name);
     if constexpr (dilates) {
       voids_ = layout.input<field::VoidVolume>(Law::name);
@@ -178,6 +179,9 @@ class EosStage final : public Stage {
         effective = max(least, effective);
       }
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
+      if constexpr (Barotropic<Law>)
+        batch.ledger->barotropic_work +=
+            sum(view(batch, mass_)(g) * fnma(p_p(g) + step.pressure, 0.5 * dv, Pack(w_p(g))));
       p_p.set(g, step.pressure);
       e_p.set(g, select(share > Pack(0.0), step.energy, e_p(g)));
       if constexpr (OwnsState<Law>) state_.set(batch, g, law.after(rho, v, step.energy));
@@ -247,6 +251,7 @@ class EosStage final : public Stage {
   LocalInput<field::SpecificVolumes> volumes_;
   LocalInput<field::SpecificWork> work_;
   LocalOptional<field::CarriedLoss> loss_{-1};  // absent: spall of sound material
+  Input<field::Mass> mass_{-1};                 // of a barotropic law
   State<field::Failed> failed_{-1};             // where points part
   Input<field::VoidVolume> voids_{-1};
   LocalInput<field::TensionLimit> tension_limit_{-1};

@@ -9,6 +9,7 @@
 #include "krater/core/lane_math.hpp"
 #include "krater/materials/batch_access.hpp"
 #include "krater/materials/law.hpp"
+#include "krater/materials/stages/strength_stage.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -29,6 +30,10 @@ class HyperelasticStage final : public Stage {
         p_{layout.state<field::Pressure>(0.0, Law::name)},
         e_{layout.state<field::InternalEnergy>(0.0, Law::name)},
         c_{layout.state<field::SoundSpeed>(sqrt(c0_squared_), Law::name)},
+        mass_{layout.input<field::Mass>(Law::name)},
+        strain_{layout.local_input<field::StrainStep>(Law::name)},
+        volumes_{layout.local_input<field::SpecificVolumes>(Law::name)},
+        work_{layout.local_input<field::SpecificWork>(Law::name)},
         shear_{layout.local_output<field::ShearModulus>(Law::name)} {}
 
   void apply(const BatchData& batch) const override {
@@ -43,6 +48,7 @@ class HyperelasticStage final : public Stage {
       const Mat3<Pack> F = load_mat3(F_p, g);
       const Pack averaged = law_.rho0 / (rho_p(g) * det(F));
       const auto response = law_(exp(1.0 / 3.0 * log(averaged)) * F);
+      book_work(batch, g, response.s, response.pressure);
       store_sym3(view(batch, s_), g, response.s);
       p_p.set(g, response.pressure);
       e_p.set(g, select(alone, response.energy, e_p(g)));
@@ -56,6 +62,17 @@ class HyperelasticStage final : public Stage {
   }
 
  private:
+  /// Of the trapezium in s and p: psi of the start is not kept where the ledger keeps e.
+  KRATER_FORCE_INLINE void book_work(const BatchData& batch, int g, const Sym3<Pack>& s,
+                                     Pack p) const {
+    const auto v = view(batch, volumes_);
+    const Pack deviator = deviatoric_work(load_sym3(view(batch, s_), g), s,
+                                          load_sym3(view(batch, strain_), g), v(g, 0), v(g, 1)) +
+                          view(batch, work_)(g);
+    const Pack work = fnma(view(batch, p_)(g) + p, 0.5 * (v(g, 1) - v(g, 0)), deviator);
+    batch.ledger->barotropic_work += sum(view(batch, mass_)(g) * work);
+  }
+
   Law law_;
   double c0_squared_;
   Input<field::DeformationGradient> F_;
@@ -64,6 +81,10 @@ class HyperelasticStage final : public Stage {
   State<field::Pressure> p_;
   State<field::InternalEnergy> e_;
   State<field::SoundSpeed> c_;
+  Input<field::Mass> mass_;
+  LocalInput<field::StrainStep> strain_;
+  LocalInput<field::SpecificVolumes> volumes_;
+  LocalInput<field::SpecificWork> work_;  // of viscosity
   LocalOutput<field::ShearModulus> shear_;
 };
 
