@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "krater/contact/boundary.hpp"
-#include "krater/kinematics/mpm/frames.hpp"
+#include "krater/kinematics/frames.hpp"
 #include "verification/schemes_support.hpp"
 
 namespace {

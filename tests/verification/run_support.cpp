@@ -35,11 +35,15 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+std::unique_ptr<const Scene> read_file(const std::string& file, const Overrides& overrides) {
+  Overrides all{"time.energy_error=off"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return std::make_unique<const Scene>(read_scene(file, all));
+}
+
 Run start(const std::string& file, const Overrides& overrides, IsaLevel level) {
   Run run;
-  Overrides all{"time.energy_error=off"};  // tests judge energy for themselves
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  run.scene = std::make_unique<const Scene>(read_scene(file, all));
+  run.scene = read_file(file, overrides);
   run.sim = std::make_unique<Simulation>(*run.scene, level);
   return run;
 }
@@ -49,6 +53,11 @@ int slot_of(const Run& run, const FieldInfo& field, int component, int body) {
 }
 
 }  // namespace
+
+std::unique_ptr<const Scene> read_text(const std::string& yaml, const Overrides& overrides) {
+  const TemporaryFile file{yaml};
+  return read_file(file.path(), overrides);
+}
 
 Run start_text(const std::string& yaml, const Overrides& overrides, IsaLevel level) {
   const TemporaryFile file{yaml};

@@ -20,6 +20,8 @@ struct Run {
 
 using Overrides = std::vector<std::string>;
 
+/// A scene from text; tests judge energy for themselves.
+std::unique_ptr<const Scene> read_text(const std::string& yaml, const Overrides& overrides = {});
 Run start_text(const std::string& yaml, const Overrides& overrides = {},
                IsaLevel level = best_isa_level());
 /// `name`: a file of inputs/, e.g. "taylor_copper.yaml".

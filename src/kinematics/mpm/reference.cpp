@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 
 #include "krater/core/parallel.hpp"
-#include "krater/kinematics/mpm/frames.hpp"
+#include "krater/kinematics/frames.hpp"
 
 namespace krater {
 

@@ -5,7 +5,7 @@
 /// them by two Gauss points per axis. Cells at a side of the domain are cut in half there.
 #include <numbers>
 
-#include "krater/kinematics/mpm/frames.hpp"
+#include "krater/kinematics/frames.hpp"
 #include "krater/kinematics/mpm/weights.hpp"
 
 namespace krater::inline KRATER_ISA {

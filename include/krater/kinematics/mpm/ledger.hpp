@@ -29,9 +29,9 @@
 /// ahead. Sources: Burgess, Sulsky, Brackbill 1992 (JCP 103, 1) for the loss of the round trip;
 /// Caramana, Burton, Shashkov, Whalen 1998 (JCP 146, 227) for the work of the very forces; DeBar
 /// 1974.
+#include "krater/kinematics/frames.hpp"
 #include "krater/kinematics/mpm/cells.hpp"
 #include "krater/kinematics/mpm/configuration.hpp"
-#include "krater/kinematics/mpm/frames.hpp"
 
 namespace krater::inline KRATER_ISA {
 

@@ -5,9 +5,9 @@
 ///   m_i = sum S m_p,  p_i = sum S m_p (v_p + L_p (x_i - x_p)),  V_i = sum S V_p,
 ///   f_i = sum (S m_p b_p - V_p sigma_p . grad S);  axisymmetric: f_r -= V_p sigma_tt S/r_p.
 /// On a fixed reference V sigma F^-T takes the place of V sigma (mpm/configuration.hpp).
+#include "krater/kinematics/frames.hpp"
 #include "krater/kinematics/mpm/cells.hpp"
 #include "krater/kinematics/mpm/configuration.hpp"
-#include "krater/kinematics/mpm/frames.hpp"
 
 namespace krater::inline KRATER_ISA {
 

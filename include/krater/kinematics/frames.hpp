@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-/// \file kinematics/mpm/frames.hpp
+/// \file kinematics/frames.hpp
 /// The only place in the step that knows what kind of frame it is in: which tensor axis each grid
 /// axis is, and what symmetry about the axis adds (theory 3; per full revolution, so masses and
 /// forces are those of the whole body):

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mesh/mesh_kernels.hpp
+/// The sweeps over elements, compiled for every instruction-set level and frame, and the plain data
+/// that they work on. Elements lie in lane groups of 8 as points do (points/store.hpp); what a
+/// group has beside its columns lies in arrays of `groups` records:
+///   corners [corner][8 lanes]          shares, the mass of each corner [corner][8]
+///   forces  [corner][axis][8]          Q of the hourglass [component][8]
+///   energy of the hourglass [8]        G and tr D of the last step [2][8]
+/// Nodes: x, m, v, heat per mass of the step (8 doubles), and the change of velocity of the step.
+#include <cstdint>
+
+#include "krater/core/batch_types.hpp"
+#include "krater/core/isa_level.hpp"
+#include "krater/materials/stage.hpp"
+
+namespace krater {
+
+/// Offsets in the record of a group; -1: absent.
+struct ElementColumns {
+  int id, position, velocity, mass, density, stress, pressure, viscous, energy, sound_speed;
+  int plastic, failed;
+  int local_gradient, local_extra, local_rate, local_shear;
+  int stride, local_stride;
+};
+
+/// How the modes that one point does not see are held.
+struct HourglassOptions {
+  enum class Kind { assumed_strain, viscous } kind = Kind::assumed_strain;
+  double viscous = 0.1;  ///< c_h
+};
+
+struct ElementData {
+  double* elements;
+  int count, groups;
+  const std::int32_t* corners;
+  const double* shares;
+  double *forces, *hourglass, *hourglass_energy, *remembered;
+  double* nodes;    ///< 8 each
+  double* changes;  ///< 4 each
+  ElementColumns columns;
+  const Stage* const* stages;
+  int stage_count;
+  double q_lin, q_quad;
+  HourglassOptions held;
+};
+
+struct ElementScratch {
+  double* local;   ///< kElementGroups records
+  double* length;  ///< 8 each
+  double* kept;    ///< kKeptPacks packs each
+  const double* zeros;
+};
+inline constexpr int kElementGroups = 8;  ///< groups that a stage works on at once
+inline constexpr int kKeptPacks = 20;
+
+/// What a sweep over some groups leaves behind; combined in their order.
+struct ElementResult {
+  double internal = 0, hourglass = 0;  ///< [J]
+  double max_rate = 0;                 ///< 1/dt at CFL 1 [1/s]
+  int limiter = 0, limiting = -1;      ///< 0 wave, 2 dilatation; index of the element
+  Ledger ledger;
+  Fault fault;
+};
+
+class MeshKernels {
+ public:
+  MeshKernels() = default;
+  MeshKernels(const MeshKernels&) = delete;
+  MeshKernels& operator=(const MeshKernels&) = delete;
+  virtual ~MeshKernels();
+  /// Forces of the corners where the nodes are, and what the state allows of a step.
+  virtual void forces(const ElementData& data, int first, int last, ElementResult& out) const = 0;
+  /// Work, strain and stages of a step dt of the nodes' velocities v + dv; nodes have not moved.
+  virtual void strain(const ElementData& data, const ElementScratch& scratch, double dt, int first,
+                      int last, ElementResult& out) const = 0;
+};
+
+enum class MeshFrame : int { axisymmetric, plane, space };
+struct MeshKernelFactory {
+  MeshKernels* (*make)(MeshFrame frame);  ///< ownership passes to the caller
+};
+const MeshKernelFactory& mesh_kernel_factory(IsaLevel level);
+const MeshKernelFactory* mesh_kernel_factory_isa_portable();
+const MeshKernelFactory* mesh_kernel_factory_isa_v3();
+const MeshKernelFactory* mesh_kernel_factory_isa_v4();
+
+}  // namespace krater

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mesh/mesh_step.hpp
+/// Bodies of fixed-mesh Lagrangian elements (kinematics/mesh/element.hpp, mesh_sweeps.hpp):
+///   m_I = sum_e m_eI,   dv_I = dt f_I/m_I,   x_I <- x_I + dt v_I+,
+/// sums in order of elements. Sides of the domain act on the nodes themselves: a plane of symmetry
+/// and the axis hold the normal velocity of the nodes that lie on it at the start; a wall lets no
+/// node pass, x + dt v+ on its plane, with Coulomb friction, and never pulls; sticky holds a node
+/// whole from when it touches. What that takes from the motion of a node is heat of its elements.
+/// Kinetic + internal + hourglass energy is constant to round-off.
+/// Not here: contact between bodies, driven sides, fixed references (issue 28).
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "krater/contact/options.hpp"
+#include "krater/core/aligned.hpp"
+#include "krater/geometry/frame.hpp"
+#include "krater/kinematics/audit.hpp"
+#include "krater/kinematics/kinematics.hpp"
+#include "krater/kinematics/mesh/mesh.hpp"
+#include "krater/kinematics/mesh/mesh_kernels.hpp"
+
+namespace krater {
+
+/// What a body of elements is made of; pointers must outlive the step.
+struct ElementBody {
+  int body = 0;
+  Mesh mesh;
+  std::vector<Triple> velocities;  ///< of its nodes [m/s]
+  const Layout* layout = nullptr;
+  const Stage* const* stages = nullptr;
+  int stage_count = 0;
+  double density = 0, shear_modulus = 0;
+  double q_lin = 0, q_quad = 0;
+  HourglassOptions held;
+};
+
+/// The columns that elements need beside those of their material: before and after its stages are
+/// made.
+void declare_elements(double density, Layout& layout);
+void declare_element_results(Layout& layout);
+
+/// Thrown by move(): element `element` of set `set`.
+struct ElementFault {
+  int set;
+  Fault fault;
+};
+
+class MeshStep final : public Kinematics {
+ public:
+  struct Domain {
+    Frame frame = Frame::cartesian_3d;
+    std::array<std::array<Boundary, 2>, 3> sides{};
+    std::array<std::array<double, 2>, 3> planes{};  ///< where they are [m]
+  };
+  /// Throws std::invalid_argument for a side that drives.
+  MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit);
+  ~MeshStep() override;
+
+  /// Throws InputError where an element has no volume or a node no element.
+  void add(ElementBody body);
+  void start();  ///< after the last body: forces, energies, and the first limit of the step
+
+  double force(double dt) override;
+  void meet(double dt) override;
+  void move(double dt) override;
+  const TimeStepLimit& limit() const override { return limit_; }
+  int set_count() const override { return static_cast<int>(bodies_.size()); }
+  PointSet set(int s) const override;
+  /// find_forces() afterwards.
+  PointStore& change(int s) override;
+  void find_forces();
+
+  double hourglass_energy() const {
+    return hourglass_energy_;
+  }  ///< part of the internal energy [J]
+  std::size_t node_count(int s) const;
+  Triple position(int s, std::size_t node) const;
+  Triple velocity(int s, std::size_t node) const;
+  double mass(int s, std::size_t node) const;
+  Triple force_of(int s, std::size_t node) const;  ///< of the elements, as last found [N]
+
+ private:
+  struct Elements;
+  struct WallSums {
+    double heat = 0;
+    std::array<double, 3> impulse{};
+  };
+  struct Chunk {
+    std::size_t body;
+    int first, last;
+  };
+  ElementScratch scratch();
+  ElementData data(Elements& body);
+  void hold_planes(Elements& body, std::size_t first, std::size_t last, WallSums& sums) const;
+  Triple push_of(const Boundary& wall, std::size_t axis, std::size_t side, double dt,
+                 const double* node, const double* change) const;
+  void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
+                       WallSums& sums) const;
+  void note_planes(Elements& body) const;
+  double kinetic() const;
+  template <class Work>
+  void over_nodes(const Work& work);
+  void combine(const std::vector<ElementResult>& results, bool energies);
+
+  Domain domain_;
+  int dim_;
+  const MeshKernels& kernels_;
+  Audit& audit_;
+  std::vector<std::unique_ptr<Elements>> bodies_;
+  std::vector<Chunk> chunks_;
+  std::vector<AlignedBuffer> scratch_;
+  TimeStepLimit limit_;
+  double hourglass_energy_ = 0;
+};
+
+}  // namespace krater

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/kinematics/mesh/mesh_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "krater/core/errors.hpp"
+#include "krater/core/parallel.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr const char* kMethod = "elements";
+constexpr std::size_t kNode = 8, kChange = 4;  ///< doubles
+constexpr int kChunkGroups = 32;               ///< lane groups that one thread takes at once
+constexpr std::size_t kChunkNodes = 512;
+
+ElementColumns columns_of(const Layout& layout) {
+  const auto state = [&]<class F>(F) { return layout.optional<F>().offset; };
+  const auto local = [&]<class F>(F) { return layout.local_optional<F>().offset; };
+  return {.id = state(field::Id{}),
+          .position = state(field::Position{}),
+          .velocity = state(field::Velocity{}),
+          .mass = state(field::Mass{}),
+          .density = state(field::Density{}),
+          .stress = state(field::DeviatoricStress{}),
+          .pressure = state(field::Pressure{}),
+          .viscous = state(field::ViscousPressure{}),
+          .energy = state(field::InternalEnergy{}),
+          .sound_speed = state(field::SoundSpeed{}),
+          .plastic = state(field::PlasticStrain{}),
+          .failed = state(field::Failed{}),
+          .local_gradient = local(field::StepGradient{}),
+          .local_extra = local(field::ExtraDilatation{}),
+          .local_rate = local(field::DilatationRate{}),
+          .local_shear = local(field::ShearModulus{}),
+          .stride = layout.stride(),
+          .local_stride = layout.local_stride()};
+}
+
+}  // namespace
+
+void declare_elements(double density, Layout& layout) {
+  layout.state<field::Id>(0, kMethod);
+  layout.state<field::Position>(0, kMethod);
+  layout.state<field::Velocity>(0, kMethod);
+  layout.state<field::Mass>(0, kMethod);
+  layout.state<field::Density>(density, kMethod);
+  layout.local_output<field::StepGradient>(kMethod);
+  layout.local_output<field::ExtraDilatation>(kMethod);
+}
+
+void declare_element_results(Layout& layout) {
+  if (layout.optional<field::InternalEnergy>().offset < 0)
+    layout.state<field::InternalEnergy>(0, kMethod);
+  layout.local_input<field::DilatationRate>(kMethod);
+}
+
+/// A body's nodes and elements.
+struct MeshStep::Elements {
+  ElementBody made_of;
+  ElementColumns columns;
+  PointStore elements;
+  NodeCorners corners_of;
+  std::vector<std::int32_t> corners;
+  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes;
+  std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
+  std::size_t node_count = 0;
+
+  double* node(std::size_t n) { return nodes.data() + kNode * n; }
+  double* change(std::size_t n) { return changes.data() + kChange * n; }
+};
+
+MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit)
+    : domain_{domain}, dim_{dimension(domain.frame)}, kernels_{kernels}, audit_{audit} {
+  for (const auto& axis : domain.sides)
+    for (const Boundary& side : axis)
+      if (side.drives())
+        throw std::invalid_argument("a side of the domain that drives a body of elements");
+}
+
+MeshStep::~MeshStep() = default;
+
+void MeshStep::add(ElementBody made_of) {
+  auto body = std::make_unique<Elements>();
+  body->made_of = std::move(made_of);
+  const ElementBody& m = body->made_of;
+  const auto nodes_each = static_cast<std::size_t>(m.mesh.corners());
+  const std::size_t count = m.mesh.element_count();
+  body->columns = columns_of(*m.layout);
+  body->corners_of = node_corners(m.mesh);
+  const std::vector<double> volumes = corner_volumes(m.mesh, domain_.frame == Frame::axisymmetric);
+  body->elements = PointStore{m.layout->stride()};
+  std::vector<double> record;
+  for (std::size_t e = 0; e < count; ++e) {
+    double volume = 0;
+    Triple centre{};
+    for (std::size_t I = 0; I < nodes_each; ++I) {
+      const double share = volumes[e * nodes_each + I];
+      const auto n = static_cast<std::size_t>(m.mesh.elements[e * nodes_each + I]);
+      volume += share;
+      for (std::size_t a = 0; a < 3; ++a) centre[a] += share * m.mesh.nodes[n][a];
+      if (!(share > 0))
+        throw InputError(
+            fmt::format("element {} is inverted or has no volume at its corner {}", e, I));
+    }
+    record.assign(static_cast<std::size_t>(m.layout->stride() / kLanes), 0.0);
+    for (const Column& c : m.layout->columns())
+      for (int k = 0; k < c.components; ++k)
+        record[static_cast<std::size_t>(c.offset / kLanes + k)] = c.initial;
+    const auto put = [&](int offset, double value) {
+      record[static_cast<std::size_t>(offset / kLanes)] = value;
+    };
+    put(body->columns.id, static_cast<double>(e));
+    put(body->columns.mass, m.density * volume);
+    for (int a = 0; a < dim_; ++a)
+      put(body->columns.position + kLanes * a, centre[static_cast<std::size_t>(a)] / volume);
+    if (const Column* F = m.layout->find(field::DeformationGradient::info.name))
+      for (int k = 0; k < 9; k += 4) put(F->offset + kLanes * k, 1.0);
+    body->elements.append(record.data());
+  }
+  body->elements.pad(body->columns.mass);
+  // What is sorted by lanes: padding repeats the last element.
+  const auto groups = static_cast<std::size_t>(body->elements.groups());
+  body->corners.resize(groups * nodes_each * kLanes);
+  body->shares.reserve(groups * nodes_each * kLanes);
+  for (std::size_t g = 0; g < groups; ++g)
+    for (std::size_t I = 0; I < nodes_each; ++I)
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        const std::size_t e = std::min(g * kLanes + l, count - 1),
+                          to = (g * nodes_each + I) * kLanes + l;
+        body->corners[to] = m.mesh.elements[e * nodes_each + I];
+        body->shares.data()[to] = m.density * volumes[e * nodes_each + I];
+      }
+  const auto dim = static_cast<std::size_t>(dim_);
+  body->forces.reserve(groups * nodes_each * dim * kLanes);
+  body->hourglass.reserve(groups * 12 * kLanes);
+  body->hourglass_energy.reserve(groups * kLanes);
+  body->remembered.reserve(groups * 2 * kLanes);
+  for (std::size_t g = 0; g < groups; ++g)
+    std::fill_n(body->remembered.data() + 2 * g * kLanes, kLanes, m.shear_modulus);
+  body->node_count = m.mesh.nodes.size();
+  body->nodes.reserve(kNode * body->node_count);
+  body->changes.reserve(kChange * body->node_count + kNode);  // read eight at a time
+  for (std::size_t n = 0; n < body->node_count; ++n) {
+    double* node = body->node(n);
+    for (std::size_t a = 0; a < dim; ++a) {
+      node[a] = m.mesh.nodes[n][a];
+      node[4 + a] = m.velocities.empty() ? 0 : m.velocities[n][a];
+    }
+    for (std::size_t p = body->corners_of.first[n]; p < body->corners_of.first[n + 1]; ++p)
+      node[3] += m.density * volumes[body->corners_of.places[p]];
+    if (!(node[3] > 0)) throw InputError(fmt::format("node {} belongs to no element", n));
+  }
+  note_planes(*body);
+  for (int first = 0; first < body->elements.groups(); first += kChunkGroups)
+    chunks_.push_back(
+        {bodies_.size(), first, std::min(first + kChunkGroups, body->elements.groups())});
+  bodies_.push_back(std::move(body));
+}
+
+/// Nodes that lie on a plane that holds them, and their start.
+void MeshStep::note_planes(Elements& body) const {
+  body.on_plane.assign(body.node_count, 0);
+  double size = 0;
+  for (std::size_t n = 0; n < body.node_count; ++n)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
+      size = std::max(size, std::abs(body.node(n)[a]));
+  for (std::size_t n = 0; n < body.node_count; ++n)
+    for (unsigned a = 0; a < static_cast<unsigned>(dim_); ++a)
+      for (unsigned side = 0; side < 2; ++side) {
+        const bool axis = domain_.frame == Frame::axisymmetric && a == 0 && side == 0;
+        if (domain_.sides[a][side].kind != BoundaryKind::symmetry && !axis) continue;
+        if (std::abs(body.node(n)[a] - domain_.planes[a][side]) > 1e-12 * size) continue;
+        body.on_plane[n] = static_cast<std::uint8_t>(body.on_plane[n] | (1U << a));
+        body.node(n)[4 + a] = 0;
+      }
+}
+
+ElementData MeshStep::data(Elements& b) {
+  return {.elements = b.elements.data(),
+          .count = b.elements.count(),
+          .groups = b.elements.groups(),
+          .corners = b.corners.data(),
+          .shares = b.shares.data(),
+          .forces = b.forces.data(),
+          .hourglass = b.hourglass.data(),
+          .hourglass_energy = b.hourglass_energy.data(),
+          .remembered = b.remembered.data(),
+          .nodes = b.nodes.data(),
+          .changes = b.changes.data(),
+          .columns = b.columns,
+          .stages = b.made_of.stages,
+          .stage_count = b.made_of.stage_count,
+          .q_lin = b.made_of.q_lin,
+          .q_quad = b.made_of.q_quad,
+          .held = b.made_of.held};
+}
+
+ElementScratch MeshStep::scratch() {
+  AlignedBuffer& mine = scratch_[static_cast<std::size_t>(thread_index())];
+  double* kept = mine.data();
+  double* length = kept + kElementGroups * kKeptPacks * kLanes;
+  double* zeros = length + kElementGroups * kLanes;
+  return {zeros + 9 * kLanes, length, kept, zeros};
+}
+
+void MeshStep::start() {
+  find_forces();
+  audit_.kinetic = audit_.initial_kinetic = kinetic();
+  audit_.internal = 0;
+  for (const auto& b : bodies_)
+    for (int i = 0; i < b->elements.count(); ++i)
+      audit_.internal += b->elements.at(b->columns.mass, i) * b->elements.at(b->columns.energy, i);
+  audit_.initial_internal = audit_.internal;
+}
+
+double MeshStep::kinetic() const {
+  double sum = 0;
+  for (const auto& b : bodies_)
+    for (std::size_t n = 0; n < b->node_count; ++n) {
+      const double* node = b->nodes.data() + kNode * n;
+      double squares = 0;
+      for (int a = 0; a < dim_; ++a) squares += node[4 + a] * node[4 + a];
+      sum += 0.5 * node[3] * squares;
+    }
+  return sum;
+}
+
+void MeshStep::combine(const std::vector<ElementResult>& results, bool energies) {
+  if (energies) audit_.internal = hourglass_energy_ = 0;
+  for (std::size_t c = 0; c < results.size(); ++c) {
+    const ElementResult& r = results[c];
+    if (r.fault.kind != FaultKind::none)
+      throw ElementFault{static_cast<int>(chunks_[c].body), r.fault};
+    if (r.max_rate > limit_.rate) {
+      const Elements& body = *bodies_[chunks_[c].body];
+      limit_ = {r.max_rate, r.limiter, body.made_of.body, 1.0 * r.limiting};
+    }
+    if (!energies) continue;
+    audit_.internal += r.internal + r.hourglass;
+    hourglass_energy_ += r.hourglass;
+    audit_.book_events(r.ledger);
+  }
+}
+
+void MeshStep::find_forces() {
+  std::vector<ElementResult> results(chunks_.size());
+  for_each(chunks_.size(), [&](std::size_t c) {
+    const Chunk& chunk = chunks_[c];
+    kernels_.forces(data(*bodies_[chunk.body]), chunk.first, chunk.last, results[c]);
+  });
+  limit_ = {};
+  combine(results, false);
+}
+
+/// work(body, first node, last node, sums) in chunks; sums in their order.
+template <class Work>
+void MeshStep::over_nodes(const Work& work) {
+  for (auto& body : bodies_) {
+    const std::size_t chunks = (body->node_count + kChunkNodes - 1) / kChunkNodes;
+    std::vector<WallSums> sums(chunks);
+    for_each(chunks, [&](std::size_t c) {
+      work(*body, c * kChunkNodes, std::min((c + 1) * kChunkNodes, body->node_count), sums[c]);
+    });
+    for (const WallSums& s : sums) {
+      audit_.wall_heat += s.heat;
+      for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += s.impulse[a];
+    }
+  }
+}
+
+Triple MeshStep::force_of(int s, std::size_t node) const {
+  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  const auto nodes_each = static_cast<std::size_t>(b.made_of.mesh.corners());
+  const auto dim = static_cast<std::size_t>(dim_);
+  Triple f{};
+  for (std::size_t k = b.corners_of.first[node]; k < b.corners_of.first[node + 1]; ++k) {
+    const std::size_t place = b.corners_of.places[k], e = place / nodes_each,
+                      I = place % nodes_each;
+    const double* corner =
+        b.forces.data() + ((e / kLanes * nodes_each + I) * dim) * kLanes + e % kLanes;
+    for (std::size_t a = 0; a < dim; ++a) f[a] += corner[a * kLanes];
+  }
+  return f;
+}
+
+double MeshStep::force(double dt) {
+  over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums&) {
+    const int s = static_cast<int>(
+        std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& p) { return p.get() == &b; }) -
+        bodies_.begin());
+    for (std::size_t n = first; n < last; ++n) {
+      const Triple f = force_of(s, n);
+      for (std::size_t a = 0; a < 3; ++a) b.change(n)[a] = dt / b.node(n)[3] * f[a];
+      b.node(n)[7] = 0;
+    }
+  });
+  return dt;
+}
+
+void MeshStep::meet(double dt) {
+  over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums& sums) {
+    hold_planes(b, first, last, sums);
+    push_from_sides(b, first, last, dt, sums);
+  });
+}
+
+void MeshStep::hold_planes(Elements& b, std::size_t first, std::size_t last, WallSums& sums) const {
+  for (std::size_t n = first; n < last; ++n)
+    for (unsigned a = 0; b.on_plane[n] >> a != 0; ++a) {
+      if ((b.on_plane[n] >> a & 1U) == 0) continue;
+      double& change = b.change(n)[a];
+      sums.impulse[a] -= b.node(n)[3] * (change + b.node(n)[4 + a]);
+      change = -b.node(n)[4 + a];
+    }
+}
+
+/// The push of one side on a node whose velocity is v + change; returns what it was.
+Triple MeshStep::push_of(const Boundary& wall, std::size_t axis, std::size_t side, double dt,
+                         const double* node, const double* change) const {
+  const auto dim = static_cast<std::size_t>(dim_);
+  Triple push{};
+  const bool sticky = wall.kind == BoundaryKind::sticky;
+  if (wall.kind != BoundaryKind::wall && !sticky) return push;
+  const double inwards = side == 0 ? 1 : -1;
+  const double touching = (domain_.planes[axis][side] - node[axis]) / dt;
+  const double missing = inwards * (touching - node[4 + axis] - change[axis]);
+  if (!(missing > 0)) return push;
+  push[axis] = inwards * missing;
+  double squares = 0;
+  for (std::size_t t = 0; t < dim; ++t)
+    if (t != axis) squares += (node[4 + t] + change[t]) * (node[4 + t] + change[t]);
+  const double slip = std::sqrt(squares);
+  const double share = sticky ? 1 : slip > 0 ? std::min(1.0, wall.friction * missing / slip) : 0;
+  for (std::size_t t = 0; t < dim; ++t)
+    if (t != axis) push[t] = -share * (node[4 + t] + change[t]);
+  return push;
+}
+
+void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last, double dt,
+                               WallSums& sums) const {
+  const auto dim = static_cast<std::size_t>(dim_);
+  for (std::size_t n = first; n < last; ++n) {
+    double *node = b.node(n), *change = b.change(n);
+    Triple all{};
+    for (std::size_t a = 0; a < dim; ++a)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const Triple push = push_of(domain_.sides[a][side], a, side, dt, node, change);
+        for (std::size_t t = 0; t < dim; ++t) change[t] += push[t], all[t] += push[t];
+      }
+    for (std::size_t t = 0; t < dim; ++t) {
+      node[7] -= all[t] * (node[4 + t] + 0.5 * change[t]);
+      sums.impulse[t] += node[3] * all[t];
+    }
+    sums.heat += node[3] * node[7];
+  }
+}
+
+void MeshStep::move(double dt) {
+  std::size_t most = 0;
+  for (const auto& b : bodies_)
+    most = std::max(most, static_cast<std::size_t>(b->columns.local_stride));
+  scratch_.resize(static_cast<std::size_t>(threads()));
+  for (AlignedBuffer& buffer : scratch_)
+    buffer.reserve(kElementGroups * (kKeptPacks * kLanes + kLanes + most) + 9 * kLanes);
+  std::vector<ElementResult> results(chunks_.size());
+  for_each(chunks_.size(), [&](std::size_t c) {
+    const Chunk& chunk = chunks_[c];
+    Elements& body = *bodies_[chunk.body];
+    kernels_.strain(data(body), scratch(), dt, chunk.first, chunk.last, results[c]);
+  });
+  over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums&) {
+    for (std::size_t n = first; n < last; ++n)
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) {
+        b.node(n)[4 + a] += b.change(n)[a];
+        b.node(n)[a] += dt * b.node(n)[4 + a];
+      }
+  });
+  limit_ = {};
+  combine(results, true);
+  audit_.kinetic = kinetic();
+  find_forces();
+}
+
+PointSet MeshStep::set(int s) const {
+  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  return {b.made_of.body, &b.elements};
+}
+PointStore& MeshStep::change(int s) { return bodies_[static_cast<std::size_t>(s)]->elements; }
+std::size_t MeshStep::node_count(int s) const {
+  return bodies_[static_cast<std::size_t>(s)]->node_count;
+}
+Triple MeshStep::position(int s, std::size_t n) const {
+  const double* node = bodies_[static_cast<std::size_t>(s)]->node(n);
+  return {node[0], node[1], node[2]};
+}
+Triple MeshStep::velocity(int s, std::size_t n) const {
+  const double* node = bodies_[static_cast<std::size_t>(s)]->node(n);
+  return {node[4], node[5], node[6]};
+}
+double MeshStep::mass(int s, std::size_t n) const {
+  return bodies_[static_cast<std::size_t>(s)]->node(n)[3];
+}
+
+}  // namespace krater
