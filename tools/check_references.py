@@ -36,7 +36,7 @@ PLACE = re.compile(r"(?<![\w./<-])((?:tools|inputs|validation|tests|include|src|
                    r"|contact|kinematics|scene|output|simulation|measure|point_driver|app)/[\w/.*-]*\w)")
 
 # Written by runs, a user's (in capitals, or x), or another program's.
-NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point|gauge_NAME)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
+NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point|study|gauge_NAME)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
 
 
 class Checker:

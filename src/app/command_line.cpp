@@ -11,6 +11,7 @@
 #include "krater/app/point.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/run.hpp"
+#include "krater/app/study.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/output/results.hpp"
@@ -30,11 +31,18 @@ void add_scene_options(CLI::App* command, RunOptions& options) {
 
 /// Subcommands of the command line.
 struct Commands {
-  const CLI::App &run, &check, &point;
+  const CLI::App &run, &check, &point, &study;
 };
+
+std::vector<std::string> words_of_study(const CLI::App& command) {
+  std::vector<std::string> words{"study"};
+  for (const std::string& word : command.remaining()) words.push_back(word);
+  return words;
+}
 
 int dispatch(const Commands& commands, const RunOptions& options, const std::string& model) {
   try {
+    if (commands.study.parsed()) return become_study(words_of_study(commands.study));
     if (commands.run.parsed()) return run(options);
     if (commands.check.parsed())
       print_check(options);
@@ -112,13 +120,17 @@ int command_line(int argc, char** argv) {
   CLI::App* models_command =
       app.add_subcommand("models", "list the material laws and cards, or describe one");
   models_command->add_option("name", model, "law");
+  CLI::App* study_command = app.add_subcommand(
+      "study", "many runs of one scene: accuracy, settings, effects, limits, calibration");
+  study_command->set_help_flag();  // the package's own
+  study_command->prefix_command();
   if (report_unknown_command(app, argc, argv)) return kBadInput;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kDone : kBadInput;
   }
-  return dispatch({*run_command, *check_command, *point_command}, options, model);
+  return dispatch({*run_command, *check_command, *point_command, *study_command}, options, model);
 }
 
 }  // namespace krater

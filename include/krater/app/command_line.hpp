@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/command_line.hpp
-/// krater run | check | point | models. Exit codes: 0 done, 2 bad input, 3 numerical failure, 4
+/// krater run | check | point | study | models. Exit codes: 0 done, 2 bad input, 3 numerical
+/// failure, 4
 /// interrupted.
 
 namespace krater {

@@ -1,0 +1,235 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`krater study`: the engine (resume, failing members, budget, queue, bad input), every kind at toy size."""
+
+import contextlib
+import csv
+import io
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+import types
+
+import h5py
+
+from scene_support import KRATER, ROOT, Folder, check, command, environment, finish, krater
+
+os.environ["KRATER"] = KRATER
+sys.path.insert(0, str(ROOT / "tools" / "krater_study"))
+import command as study_command  # noqa: E402
+
+SCENE = """
+frame: plane_strain
+grid: {cell: 0.5 mm, box: {min: [0, 0], max: [1 mm, 12 mm]}, boundary: {z_min: symmetry, x_min: symmetry, x_max: symmetry}}
+time: {end: 1 us}
+materials: {al: {density: 2785, eos: {mie_gruneisen_shock: {c0: 5328 m/s, S1: 1.338, gamma0: 2.0}}, viscosity: {}}}
+bodies: {plate: {material: al, shape: {box: {min: [-1, -1, 0], max: [1, 1, 10 mm]}}, velocity: [0, -1 km/s]}}
+measures:
+  velocity: {kind: mean_velocity, body: plate, axis: z}
+  gone: {kind: mean_velocity, body: plate, axis: z, region: {z_min: 11 mm}}
+references: {velocity: {value: -333.4 m/s, source: momentum}}
+"""
+SHOT = """
+frame: axisymmetric
+grid: {cell: 0.5 mm, box: {min: [0, -14 mm], max: [6 mm, 8 mm]}, boundary: {r_min: axis}}
+time: {end: 60 us, stop_when: {settled: rod}}
+materials:
+  steel: {density: 7850, shear_modulus: 80 GPa, strength: {von_mises: {Y: 1.5 GPa, H: 100 MPa}},
+          eos: {mie_gruneisen_shock: {c0: 4569 m/s, S1: 1.49, gamma0: 2.17}}}
+  soft: {density: 2700, shear_modulus: 26 GPa, strength: {von_mises: {Y: 200 MPa, H: 100 MPa}},
+         eos: {mie_gruneisen_shock: {c0: 5240 m/s, S1: 1.4, gamma0: 2}},
+         damage: {maximum_plastic_strain: {eps_max: 0.8}}, failure: {action: remove}}
+bodies:
+  rod: {material: steel, shape: {cylinder: {radius: 2 mm, height: 5 mm, base: [0, 0.3 mm]}},
+        velocity: {speed: 600 m/s, towards: -z}}
+  plate: {material: soft, shape: {cylinder: {radius: 6 mm, height: 2 mm, base: [0, -2 mm]}}}
+outcomes: {shot: {projectile: rod, target: plate}}
+contact: {friction: 0}
+"""
+LIMIT = "study: ballistic_limit\nscene: shot.yaml\noutcome: shot\nspeed: {path: bodies.rod.velocity.speed, " \
+        "between: [50 m/s, 600 m/s], tolerance: 40 m/s}\n"
+
+
+def write(name, text):
+    pathlib.Path(name).write_text(text, encoding="utf-8")
+    return name
+
+
+def study(name, text="", *words):
+    """Its command line within this process: to start Python anew takes longer than most of these studies."""
+    if text:
+        write(name + ".yaml", text)
+    out, error = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
+        code = study_command.main(["study", name + ".yaml", "-j", "2", *words])
+    return types.SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=error.getvalue(),
+                                 text=out.getvalue() + error.getvalue())
+
+
+def answer(name):
+    return json.loads(pathlib.Path(f"{name}_study/study.json").read_text(encoding="utf-8"))
+
+
+def convergence(cells="[1 mm, 0.5 mm, 0.25 mm]", more=""):
+    return f"study: convergence\nscene: plate.yaml\nvary: {{grid.cell: {cells}}}\nmeasures: [velocity]\n{more}"
+
+
+def files_of_a_study():
+    write("three.yaml", convergence())
+    done = krater("study", "three.yaml", "-j", 2)
+    check(done.returncode == 0, "a convergence study runs", done.text)
+    said = answer("three")
+    one = said["answer"]["measures"]["velocity"]
+    check(abs(one["value"] + 333.4) <= one["uncertainty"] and one["uncertainty"] < 20, "the exact velocity lies in the band", one)
+    check(len(said["members"]) == 3 and all(row["status"] == "done" for row in said["members"]), "three members")
+    check("off -333.4" in done.stdout and "the model's error lies between" in done.stdout, "the reference is judged")
+    with open("three_study/study.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    with h5py.File("three_study/study.h5", "r") as file:
+        check([*file.attrs["columns"]] == [title.split(" [")[0] for title in rows[0]], "csv and h5 have the same columns")
+        check(file["velocity"].attrs["unit"] == "m/s" and len(file["velocity"]) == len(rows) - 1 == 3, "with units")
+    page = pathlib.Path("three_study/study.html").read_text(encoding="utf-8")
+    check("<svg" in page and not re.search(r'(src|href)="(?!#)', page), "the page needs nothing beside it")
+    check("core time" in done.stderr and "left" in done.stderr, "cost is foretold, and what is left", done.stderr)
+    done = study("three")
+    check(done.returncode == 0 and "members to run" not in done.stderr, "a second call runs nothing", done.stderr)
+
+
+def resumed():
+    """Killed in the middle: members stop with their study, what was done stays, the rest goes on."""
+    write("long.yaml", convergence("[0.5 mm, 0.25 mm, 0.05 mm]"))
+    process = subprocess.Popen(command("study", "long.yaml", "-j", 1), stderr=subprocess.PIPE, text=True, env=environment())
+    for line in process.stderr:
+        if "[2/3]" in line:
+            break
+    end = time.monotonic() + 30
+    while not os.path.exists("long_study/members/cell=0.05mm/checkpoint.h5") and time.monotonic() < end:
+        time.sleep(0.005)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    process.stderr.close()
+    folder = pathlib.Path("long_study/members")
+    before = {p: p.stat().st_mtime_ns for p in folder.glob("cell=0.[25]*mm/summary.json")}
+    check(len(before) == 2, "two members were done when it was killed")
+    while time.monotonic() < end:  # the orphan writes its checkpoint and ends
+        told = folder / "cell=0.05mm/summary.json"
+        if told.exists() and json.loads(told.read_text(encoding="utf-8"))["status"] != "running":
+            break
+        time.sleep(0.02)
+    done = study("long")
+    log = (folder / "cell=0.05mm/log.txt").read_text(encoding="utf-8")
+    check(done.returncode == 0 and "1 of 3 members to run" in done.stderr, "the same command goes on", done.text)
+    check("--restart" in log, "the member from its checkpoint", log[-400:])
+    check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
+
+
+def failing_member():
+    write("limited.yaml", "study: sweep\nscene: plate.yaml\nmeasures: [velocity]\n"
+          "vary: {time.energy_error: [off, 1e-12, 0.2]}\n")
+    done = study("limited")
+    said = answer("limited")
+    row = said["members"][1]
+    check(done.returncode == 0 and row["status"] == "failed" and "exit code 3: energy error" in row["reason"], "a failure is a row", row)
+    check(f"Member {row['member']} failed" in done.stdout and row["velocity"] is None, "and is told")
+
+
+def budget():
+    write("dear.yaml", convergence("[1 mm, 0.5 mm, 0.02 mm]"))
+    done = study("dear", "", "--budget", "2s")
+    check(done.returncode == 4 and "left (cell=0.02mm)" in done.stderr, "a budget ends cleanly, says what is left", done.text)
+    check(len([1 for row in answer("dear")["members"] if row["status"] == "done"]) == 2, "what fits is answered with")
+    check("were not run" in done.stdout or "left" in done.stdout or "interrupted" in done.stdout, "the answer says so")
+    done = study("poor", convergence("[0.002 mm, 0.001 mm]"), "--budget", "0.1 s")
+    check(done.returncode == 2 and "below one run" in done.text, "a budget below one run is refused", done.text)
+
+
+def queue():
+    write("queued.yaml", convergence())
+    done = study("queued", "", "--list")
+    lines = done.stdout.splitlines()
+    check(done.returncode == 0 and len(lines) == 3 and all("krater run" in line for line in lines), "one command per member", done.text)
+    for line in lines[:2]:
+        subprocess.run(line, shell=True, check=True, capture_output=True)
+    done = study("queued", "", "--collect")
+    check(done.returncode == 4 and "1 members were not run" in done.stdout, "what is done is collected", done.text)
+    subprocess.run(lines[2], shell=True, check=True, capture_output=True)
+    done = study("queued", "", "--collect")
+    check(done.returncode == 0 and answer("queued")["answer"]["measures"]["velocity"]["uncertainty"] > 0, "then all", done.text)
+    check(study("queued", "", "--list").stdout == "", "and nothing is left to list")
+
+
+def bad_input():
+    base = convergence()
+    for what, text, words in (
+            ("a path no scene has", base.replace("vary:", "set: {bodies.plat.velocity: 1}\nvary:"), "bad.yaml:3: .*did you mean plate"),
+            ("a key no scene has", base.replace("vary:", "set: {grid.cel: 1}\nvary:"), r"bad.yaml:3: .*did you mean cell"),
+            ("an axis that is no cell", base.replace("grid.cell", "time.end"), "bad.yaml:3: vary/time.end: .*pareto"),
+            ("one cell for an order", convergence("[1 mm]"), "bad.yaml:3: .*one cell has no order"),
+            ("a value that is none", convergence("[1 mm, small]"), "bad.yaml:3: .*small"),
+            ("an unknown measure", base.replace("[velocity]", "[velocty]"), "bad.yaml:4: .*did you mean velocity"),
+            ("an unknown kind", base.replace("convergence", "convergense"), "bad.yaml:1: .*did you mean convergence"),
+            ("an unknown key", base + "repeat: 3\n", "bad.yaml:5: .*did you mean repeats"),
+            ("no scene", base.replace("plate.yaml", "plat.yaml"), "bad.yaml:2: .*no such file"),
+            ("a budget of 0", base + "budget: 0 s\n", "bad.yaml:5: budget: a time above 0"),
+            ("no YAML", base + "  - x: [\n", r"bad.yaml:\d+"),
+            ("uncertainty in another unit", base + "truth: {velocity: {value: 1 m/s, uncertainty: 1 mm/s}}\n",
+             "bad.yaml:5: truth/velocity: .*m/s"),
+            ("a truth of another unit", base + "truth: {velocity: {value: 1 mm}}\n", "bad.yaml:5: .*mm"),
+            ("a plain list for the cube", "study: sweep\nscene: plate.yaml\ndesign: latin_hypercube\n"
+             "vary: {time.end: [1 us, 2 us, 3 us]}\n", r"bad.yaml:4: .*\[low, high\]"),
+            ("three constants", "study: calibrate\nscene: plate.yaml\nvary: {a: [1, 2], b: [1, 2], c: [1, 2]}\n"
+             "truth: {velocity: {value: 1 m/s}}\n", "bad.yaml:3: vary: one or two"),
+            ("shifts that the sides forbid", base + "repeats: 3\n", "bad.yaml:5: repeats: .*leave repeats out"),
+            ("no outcome", "study: ballistic_limit\nscene: plate.yaml\noutcome: shot\nspeed: {}\n", "bad.yaml:3: outcome")):
+        done = study("bad", text)
+        check(done.returncode == 2 and re.search(words, done.stderr, re.S) and not done.stdout, f"refused: {what}", done.text[-300:])
+    study("null", base.replace("[velocity]", "[gone]"))
+    done = study("null")
+    check(done.returncode == 2 and "'gone' has no value in any" in done.text, "a measure that is null everywhere", done.text)
+    done = study("three", convergence("[1 mm, 0.5 mm, 0.2 mm]"))
+    check(done.returncode == 2 and "three.yaml:3: vary: changed since" in done.text, "a file that changed", done.text)
+    check(krater("study").returncode == 2 and krater("study", "--help").returncode == 0, "usage")
+
+
+def limit():
+    done = study("limit", LIMIT)
+    said = answer("limit")["answer"]
+    low, high = said["bracket"]
+    fates = {speed: through for speed, _, through in said["shots"]}
+    check(done.returncode == 0 and 0 < high - low <= 40 and fates[high] and not fates[low], "the limit is bracketed", said)
+    check(said["fit"] and low - 60 < said["fit"]["limit"] < high + 60, "and fitted", said.get("fit"))
+
+
+def examples():
+    """Those of inputs/studies as they are, but coarse."""
+    toy = {"convergence": ("[1.524 mm, 0.762 mm, 0.381 mm, 0.1905 mm]", "[3 mm, 1.5 mm]"), "pareto": ("2, 3", "2"),
+           "ablation": None, "sweep": ("members: 24", "members: 4"), "calibrate": ("members: 15", "members: 4"),
+           "ballistic_limit": ("members: 16", "members: 3")}
+    here = sorted(path.stem for path in (ROOT / "inputs/studies").glob("*.yaml"))
+    check(here == sorted(toy), "an example of each kind", here)
+    for kind, change in toy.items():
+        text = (ROOT / f"inputs/studies/{kind}.yaml").read_text(encoding="utf-8").replace("../", f"{ROOT}/inputs/")
+        words = {"convergence": (), "pareto": ("--set", "time.end=10 us"), "ballistic_limit": (
+            "--set", "grid.cell=4 mm", "--set", "time.energy_error=off", "--set", "bodies.plate.shape.cylinder.radius=60 mm")
+        }.get(kind, ("--set", "grid.cell=1.524 mm"))
+        done = study(kind, text.replace(*change) if change else text, *words)
+        check(done.returncode == 0 and os.path.exists(f"{kind}_study/study.html"), f"the example of {kind} runs", done.text[-600:])
+
+
+with Folder():
+    write("plate.yaml", SCENE)
+    write("shot.yaml", SHOT)
+    files_of_a_study()
+    resumed()
+    failing_member()
+    budget()
+    queue()
+    bad_input()
+    limit()
+    examples()
+finish()

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Command line of `krater study` and `krater run --accuracy`. Exit codes are krater's: 0 done, 2 bad input, 3 nothing to
+answer with, 4 stopped before its end (the same command goes on)."""
+
+import argparse
+import fcntl
+import hashlib
+import os
+import signal
+import sys
+
+import results
+from members import Engine, text_of, write_json
+from refinement import Convergence
+from search import BallisticLimit, Calibrate
+from settings import Ablation, Pareto, Sweep
+from study_file import InputError, Study, flow, seconds
+
+KINDS = {"convergence": Convergence, "pareto": Pareto, "ablation": Ablation, "sweep": Sweep,
+         "ballistic_limit": BallisticLimit, "calibrate": Calibrate}
+# What makes the members; the rest of a study file only asks of them, and may change.
+MAKES = ("set", "truth", "vary", "repeats", "effects", "design", "seed", "outcome", "speed")
+DONE, BAD_INPUT, NOTHING, STOPPED = 0, 2, 3, 4
+
+
+def say(line):
+    print(line, file=sys.stderr, flush=True)
+
+
+def options(words):
+    parser = argparse.ArgumentParser(
+        prog="krater study", description="Many runs of one scene: convergence, pareto, ablation, sweep, ballistic_limit, "
+        "calibrate (inputs/studies/ has an example of each). A study goes on from what lies in its folder.")
+    parser.add_argument("file", help="study file (YAML)")
+    parser.add_argument("-j", type=int, default=os.cpu_count(), metavar="N", help="cores (default: all)")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: FILE_study)")
+    parser.add_argument("--budget", metavar="TIME", help="wall time, as 20min; what does not fit is left for another time")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="override a value of every member")
+    parser.add_argument("--list", action="store_true", help="print one shell command per member that is not done, and stop")
+    parser.add_argument("--collect", action="store_true", help="run nothing: answer with what is done")
+    return parser.parse_args(words)
+
+
+def makes(study):
+    """Digests of what makes the members."""
+    with open(study.scene, "rb") as file:
+        scene = hashlib.sha256(file.read()).hexdigest()
+    return {"study": study.kind, "scene": f"{os.path.basename(study.scene)} {scene}",
+            **{key: flow(study.keys[key]) for key in MAKES if key in study.keys},
+            **{f"--set {path}": value for path, value in study.said.items()}}
+
+
+def require_same(study, folder):
+    """Members of another study, or of this one before it was edited, must not be taken for its own."""
+    os.makedirs(os.path.join(folder, "members"), exist_ok=True)
+    before, now = results.stamp(folder), makes(study)
+    changed = [key for key in dict.fromkeys([*before, *now]) if before.get(key) != now.get(key)]
+    if before and changed and any(os.scandir(os.path.join(folder, "members"))):
+        key = changed[0]
+        study.fail(key, f"changed since the members in {folder} were made ({', '.join(changed)}): their results would be told "
+                   f"of other runs; choose another folder with -o, or remove {folder}")
+    write_json(os.path.join(folder, "study.lock.json"), now)
+
+
+def lock(folder):
+    """One study at a time in a folder; held until the process ends."""
+    os.makedirs(folder, exist_ok=True)
+    handle = open(os.path.join(folder, ".running"), "w", encoding="utf-8")  # noqa: SIM115
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        raise InputError(f"{folder}: another study writes there; wait for it, or choose another folder with -o") from None
+    return handle
+
+
+def locate(study, error):
+    """An error that krater found in an override, told at the line of the study file that made it."""
+    message = str(error)
+    if "repeats" in study.keys and "must lie on a node line" in message:
+        return InputError(f"{study.path}:{study.line('repeats')}: repeats: this scene has conditions at both sides of an axis, so "
+                          f"its cell cannot be a little smaller or larger; leave repeats out\n  {message}")
+    if message.startswith("--set "):
+        path = message[6:].split("=", 1)[0]
+        for key in ("vary", "set", "truth"):
+            for name in study.block(key):
+                if name == path or path == f"references.{name}":
+                    return InputError(f"{study.path}:{study.line(f'{key}/{name}')}: {key}.{name}: {message}")
+        for name, changes in study.block("effects").items():
+            if path in changes:
+                return InputError(f"{study.path}:{study.line(f'effects/{name}/{path}')}: effects.{name}: {message}")
+        if "speed" in study.keys:
+            return InputError(f"{study.path}:{study.line('speed/path')}: speed.path: {message}")
+    return error
+
+
+def gather(question, engine, run):
+    """(rows, whether more would be run): what lies on disk and, with `run`, what is run now."""
+    rows = []
+    while new := question.next(rows):
+        if run:
+            engine.check(new)
+            if not rows or engine.estimate(new)[0] > 1:
+                foretell(engine, new)
+            found = engine.run(new)
+        else:
+            found = {one.name: engine.row(one) for one in new}
+        rows += [found[one.name] for one in new]
+        if any(row.status in ("left", "interrupted") for row in rows):
+            return rows, True
+    return rows, False
+
+
+def foretell(engine, members):
+    """The estimate, before anything is run; a budget that is below one run is refused."""
+    count, core, memory = engine.estimate(members)
+    if not count:
+        return
+    cheapest = min(engine.seconds(one) for one in members if not engine.row(one).done)
+    if engine.budget and not engine.measured and cheapest / engine.jobs > engine.budget:
+        raise InputError(f"budget: {text_of(engine.budget)} is below one run: the cheapest member takes about {text_of(cheapest)}; "
+                         "give more, or coarser cells")
+    say(f"krater study: {count} of {len(members)} members to run, about {text_of(core)} of core time "
+        f"({text_of(core / engine.jobs)} on {engine.jobs} cores), at most {memory / 1e6:.0f} MB each"
+        f"{', by what was measured' if engine.measured else ', by the forecast of krater check'}")
+
+
+def run_study(words):
+    given = options(words)
+    if given.j < 1:
+        raise InputError("-j: at least one core is needed")
+    study = Study(given.file, given.set)
+    question = KINDS[study.kind](study)
+    budget = study.budget if given.budget is None else seconds(given.budget)
+    if given.budget is not None and (budget is None or budget <= 0):
+        raise InputError(f"--budget {given.budget}: a time above 0 is expected, as 20min")
+    folder = given.output or os.path.splitext(os.path.basename(given.file))[0] + "_study"
+    held = lock(folder)
+    require_same(study, folder)
+    engine = Engine(study.scene, folder, study.fixed(), given.j, study.threads, budget, say)
+    try:
+        if given.list:
+            return print_list(question, engine)
+        rows, more = gather(question, engine, not given.collect)
+    except InputError as error:
+        raise locate(study, error) from None
+    except KeyboardInterrupt:
+        say(f"krater study: interrupted; what is done lies in {folder}; the same command goes on")
+        return STOPPED
+    held.close()
+    return tell(study, question, rows, folder, more)
+
+
+def print_list(question, engine):
+    """One line per member for GNU parallel, a SLURM array or any queue."""
+    rows, _ = gather(question, engine, False)
+    waiting = [row.member for row in rows if not row.done and row.status != "failed"]
+    engine.check(waiting)
+    for one in waiting:
+        print(engine.shell_line(one))
+    return DONE
+
+
+def tell(study, question, rows, folder, more):
+    done = [row for row in rows if row.done]
+    if not done:
+        for row in rows:
+            say(f"krater study: {row.member.name} {row.status}: {row.reason or 'not run'}")
+        say(f"krater study: no member is done, so there is nothing to answer with; logs lie in {folder}/members")
+        return STOPPED if more else NOTHING
+    for name in study.measures:
+        if all(row.measure(name) is None for row in done):
+            study.fail("measures", f"'{name}' has no value in any of the {len(done)} members that are done (the body is gone, or "
+                       "the outcome is open); leave it out, or change `time.end`")
+    answer = question.answer(rows)
+    page = results.write(folder, study, rows, answer)
+    for line in answer.sentences:
+        print(line)
+    for table in answer.tables:
+        print(f"\n{table.caption}")
+        for line in aligned([table.titles, *table.rows]):
+            print("  " + line)
+    left = [row for row in rows if row.status in ("left", "interrupted")]
+    if left:
+        say(f"krater study: {len(left)} members are left ({', '.join(row.member.name for row in left[:5])}"
+            f"{', ...' if len(left) > 5 else ''}); the same command goes on")
+    say(f"krater study: {page}")
+    return STOPPED if more else DONE
+
+
+def aligned(rows):
+    widths = [max(len(str(row[k])) for row in rows) for k in range(len(rows[0]))]
+    return ["  ".join(str(cell).ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
+
+
+def on_terminate(*_):
+    raise KeyboardInterrupt
+
+
+def main(words):
+    """`words`: study FILE ...; returns an exit code."""
+    signal.signal(signal.SIGTERM, on_terminate)
+    signal.signal(signal.SIGHUP, on_terminate)
+    try:
+        return run_study(words[1:])
+    except InputError as error:
+        say(str(error))
+        return BAD_INPUT
+    except OSError as error:
+        say(f"krater study: {error}")
+        return BAD_INPUT

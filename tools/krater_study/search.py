@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""ballistic_limit and calibrate: what to run next depends on what has been run.
+
+ballistic_limit halves an interval of speeds whose ends were not perforated and perforated, then fits Recht and Ipson,
+
+    v_r = a (v^p - v_bl^p)^(1/p),    0 < a <= 1,  p = 2 where fewer than five shots perforated
+
+to the residual speeds. Two intervals are said: that of the shots, which is certain, and that of the fit (95 %, Student).
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+from scipy.optimize import curve_fit, minimize, minimize_scalar
+from scipy.special import stdtrit
+
+import pictures
+from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled
+from members import member
+from study_file import Block, InputError
+
+TOLERANCE = 0.01  # of the speed
+
+
+class BallisticLimit:
+    def __init__(self, study):
+        self.study = study
+        outcome = study.keys["outcome"]
+        known = study.names("outcomes")
+        if outcome not in known:
+            study.fail("outcome", f"the scene has no outcomes.{outcome}; give it `outcomes: {{shot: {{projectile: ..., "
+                       f"target: ...}}}}` (known: {', '.join(known) or 'none'})")
+        self.outcome = str(outcome)
+        speed = study.block("speed", required=True)
+        for key in speed:
+            if key not in ("path", "between", "tolerance"):
+                study.fail(f"speed/{key}", "unknown key (known: path, between, tolerance)")
+        if "path" not in speed or "between" not in speed:
+            study.fail("speed", "expected {path: bodies.rod.velocity.speed, between: [200 m/s, 400 m/s], tolerance: 5 m/s}")
+        self.path = str(speed["path"])
+        study.check_paths("speed", [self.path])
+        self.low, self.high = study.between(speed["between"], "speed/between")
+        self.tolerance = self.high.number * TOLERANCE
+        if "tolerance" in speed:
+            given = study.quantity(speed["tolerance"], "speed/tolerance")
+            if given.unit != self.low.unit or given.number <= 0:
+                study.fail("speed/tolerance", f"a speed above 0 in {self.low.unit} is expected")
+            self.tolerance = given.number
+        self.most = study.count("members", 20, 1000)
+
+    def shot(self, speed):
+        return member({self.path: self.low.text(speed)})
+
+    def speed(self, row):
+        return float(row.member.values[self.path].split()[0])
+
+    def perforated(self, row):
+        """True, False, or None where the run does not tell."""
+        found = row.summary.get("outcomes", {}).get(self.outcome, {})
+        word = found.get("main_piece_outcome") or found.get("outcome")
+        return {"perforated": True, "stopped": False, "ricocheted": False}.get(word)
+
+    def bracket(self, rows):
+        """(fastest that was stopped, slowest that perforated), below each other or None."""
+        told = [(self.speed(row), self.perforated(row)) for row in rows if row.done and self.perforated(row) is not None]
+        through = [v for v, p in told if p]
+        high = min(through) if through else None
+        stopped = [v for v, p in told if not p and (high is None or v < high)]
+        return max(stopped) if stopped else None, high
+
+    def next(self, rows):
+        if not rows:
+            return [self.shot(self.low.number), self.shot(self.high.number)]
+        low, high = self.bracket(rows)
+        if low is None or high is None or high - low <= self.tolerance or len(rows) >= self.most:
+            return self.for_the_fit(rows, low, high)
+        middle = self.shot(float(f"{0.5 * (low + high):.6g}"))
+        if middle.name in [row.member.name for row in rows]:  # it told nothing: no narrower interval is to be had
+            return self.for_the_fit(rows, low, high)
+        return [middle]
+
+    def for_the_fit(self, rows, low, high):
+        """A fit of one perforation says nothing: more shots between the limit and the fastest."""
+        if low is None or high is None:
+            return []
+        have = [row.member.name for row in rows]
+        through = sum(self.perforated(row) is True for row in rows if row.done)
+        wanted = [self.shot(float(f"{high + share * (self.high.number - high):.6g}")) for share in (0.25, 0.5, 0.1)]
+        new = [one for one in wanted if one.name not in have]
+        return new[:1] if through < 4 and new and len(rows) < self.most else []
+
+    def answer(self, rows):
+        answer = Answer(failed_sentences(rows))
+        done = [row for row in rows if row.done]
+        low, high = self.bracket(rows)
+        unit = self.low.unit
+        shots = [(self.speed(row), row.measure(f"{self.outcome}.residual_speed") or 0.0, self.perforated(row)) for row in done]
+        answer.tables = [Table("Shots", [f"speed {unit}", "what became of it", "residual m/s", "core-seconds"],
+                               [[number(self.speed(row), 5), str(row.summary.get("outcomes", {}).get(self.outcome, {}).get(
+                                   "outcome", "-")), number(row.measure(f"{self.outcome}.residual_speed"), 4),
+                                 number(row.cost["core_seconds"], 3)] for row in sorted(done, key=self.speed)])]
+        for row in done:
+            if self.perforated(row) is None:
+                word = row.summary.get("outcomes", {}).get(self.outcome, {}).get("outcome", "nothing")
+                answer.sentences.append(f"At {number(self.speed(row), 5)} {unit} the run tells nothing ({word}); a later "
+                                        "time.end, or time: {stop_when: {settled: ...}}, would.")
+        answer.data = {"bracket": [low, high], "unit": unit, "shots": shots}
+        fit = None
+        if low is None or high is None:
+            missing = "perforated" if high is None else "was stopped"
+            answer.sentences.append(f"No shot between {self.low.text()} and {self.high.text()} {missing}: the limit lies "
+                                    f"{'above' if high is None else 'below'} this interval. Widen speed.between.")
+        else:
+            answer.sentences.append(f"The limit lies between {low:.5g} and {high:.5g} {unit}: the fastest that was stopped, the "
+                                    "slowest that perforated. That holds for this cell only: refine it and look again.")
+            fit = recht_ipson([(v, r) for v, r, p in shots if p], low, high)
+            answer.sentences += fit_sentences(fit, low, high, unit)
+            answer.data["fit"] = fit
+        drawn = [(v, r if p else 0.0, p) for v, r, p in shots if p is not None]
+        if drawn:
+            answer.pictures = [Picture("limit", "Residual against impact speed; the band is the fit's confidence interval.",
+                                       lambda figure: pictures.limit(figure, drawn, fit, unit))]
+        return answer
+
+
+def recht_ipson(shots, low, high):
+    """Fit of (speed, residual) of the shots that perforated; None of fewer than three."""
+    if len(shots) < 3:
+        return None
+    v, r = np.array(sorted(shots)).T
+    p = 2.0 if len(v) < 5 else None
+
+    def model(x, limit, a, power=2.0):
+        return a * np.maximum(x**power - limit**power, 0.0) ** (1 / power)
+    start, bounds = [0.5 * (low + high), 0.8], [[0.5 * low, 0.01], [v.min(), 1.0]]
+    if p is None:
+        start, bounds = start + [2.0], [bounds[0] + [1.0], bounds[1] + [6.0]]
+    start[0] = min(start[0], 0.999 * v.min())
+    try:
+        found, covariance = curve_fit(model, v, r, p0=start, bounds=bounds, maxfev=20000)
+    except (RuntimeError, ValueError):
+        return None
+    free = len(v) - len(found)
+    spread = math.sqrt(covariance[0, 0]) if np.isfinite(covariance[0, 0]) else math.inf
+    half = float(stdtrit(free, 0.975)) * spread if free > 0 else math.inf
+    return {"limit": float(found[0]), "a": float(found[1]), "p": float(found[2]) if len(found) > 2 else 2.0, "half": half,
+            "interval": [max(0.0, float(found[0]) - half), float(found[0]) + half], "shots": len(v),
+            "misfit": float(np.sqrt(np.mean((model(v, *found) - r) ** 2)))}
+
+
+def fit_sentences(fit, low, high, unit):
+    if fit is None:
+        yield "Fewer than three shots perforated, or no curve fits: no Recht-Ipson fit."
+        return
+    yield (f"Recht-Ipson: limit {fit['limit']:.4g} +- {fit['half']:.2g} {unit} (95 %), a = {fit['a']:.3g}, p = {fit['p']:.3g}, "
+           f"{fit['shots']} shots, misfit {fit['misfit']:.2g} {unit}.")
+    if fit["interval"][0] > high or fit["interval"][1] < low:
+        yield ("The fit's interval and that of the shots do not meet: residual speeds do not follow the curve near the limit; "
+               "believe the shots.")
+
+
+@dataclasses.dataclass
+class Parameter:
+    path: str
+    low: float
+    high: float
+    unit: str
+
+
+class Calibrate:
+    """One or two constants that bring measures nearest to their truth, in units of its uncertainty (1 % where not said)."""
+
+    def __init__(self, study):
+        self.study = study
+        self.parameters = []
+        for path, value in study.block("vary", required=True).items():
+            low, high = study.between(value.get("between") if isinstance(value, Block) else value, f"vary/{path}")
+            self.parameters.append(Parameter(path, low.number, high.number, low.unit))
+        study.check_paths("vary", [one.path for one in self.parameters])
+        if len(self.parameters) > 2:
+            study.fail("vary", "one or two constants: three are not told apart by a few numbers")
+        if len(study.truth) < len(self.parameters):
+            study.fail("truth", "as many measures as constants are needed, or they are not told apart")
+        study.measures = [name for name in study.measures if name in study.truth]
+        self.most = study.count("members", 15 * len(self.parameters), 1000)
+
+    def trial(self, x):
+        """x in 0 to 1 of each range; four digits of it, so that a search that comes back meets its own member."""
+        return member({one.path: f"{one.low + round(float(u), 4) * (one.high - one.low):.7g} {one.unit}".strip()
+                       for one, u in zip(self.parameters, x)})
+
+    def residual(self, row):
+        """Root mean square distance from the truth in its uncertainties; infinite of a member that failed."""
+        total = 0.0
+        for name in self.study.truth:
+            value, truth = row.measure(name), reference_of(self.study, [row], name)
+            if value is None or truth is None:
+                return math.inf
+            total += ((value - truth[0]) / (truth[1] or 0.01 * abs(truth[0]) or 1.0)) ** 2
+        return math.sqrt(total / len(self.study.truth))
+
+    def next(self, rows):
+        """The search is taken again from its start with what is known; the first trial that is not is run next."""
+        known = {row.member.name: row for row in rows}
+        if any(row.status == "left" for row in rows) or len(rows) >= self.most:
+            return []
+
+        def look(x):
+            x = np.clip(np.atleast_1d(x), 0, 1)
+            one = self.trial(x)
+            if one.name not in known:
+                raise Unknown(one)
+            return min(self.residual(known[one.name]) ** 2, 1e12)
+        try:
+            if len(self.parameters) == 1:
+                for u in (0.0, 0.5, 1.0):
+                    look([u])
+                best = min((0.0, 0.5, 1.0), key=lambda u: look([u]))
+                minimize_scalar(look, bounds=(max(0, best - 0.5), min(1, best + 0.5)), method="bounded",
+                                options={"xatol": 2e-3, "maxiter": self.most})
+            else:
+                minimize(look, [0.5, 0.5], method="Nelder-Mead", options={
+                    "initial_simplex": [[0.5, 0.5], [0.8, 0.5], [0.5, 0.8]], "xatol": 2e-3, "fatol": 1e-3, "maxfev": self.most})
+        except Unknown as unknown:
+            return [unknown.one]
+        return []
+
+    def answer(self, rows):
+        answer = Answer(failed_sentences(rows))
+        done = sorted((row for row in rows if row.done and math.isfinite(self.residual(row))), key=self.residual)
+        if not done:
+            raise InputError(f"{self.study.path}: no member gave all measures of `truth`: nothing to calibrate by")
+        best = done[0]
+        values = {one.path: [float(row.member.values[one.path].split()[0]) for row in done] for one in self.parameters}
+        residuals = [self.residual(row) for row in done]
+        halves = {one.path: self.half(values[one.path], residuals) for one in self.parameters}
+        for one in self.parameters:
+            value, half = values[one.path][0], halves[one.path]
+            text = f"+- {half:.2g}" if half is not None else "(how well, these members do not tell)"
+            answer.sentences.append(f"{one.path} = {value:.5g} {text} {one.unit}: within +- chi^2 of the truth rises by 1 (one "
+                                    "standard deviation, where its uncertainties are).")
+            if min(value - one.low, one.high - value) < 0.01 * (one.high - one.low):
+                answer.sentences.append(f"{one.path} ended at the edge of its range: the best lies beyond. Widen it.")
+        if len(self.parameters) == 2:
+            answer.sentences.append("With two constants each +- is that of the members seen while the other moved too: where "
+                                    "they can make up for each other it is too small.")
+        if residuals[0] > 2:
+            answer.sentences.append(f"Even the best misses the truth by {residuals[0]:.2g} of its uncertainties: these constants "
+                                    "alone do not reproduce it.")
+        table = Table("Trials, the best first", [*values, "residual", *self.study.measures],
+                      [[*row.member.values.values(), number(r, 3), *(number(scaled(row.unit(n))[0] * row.measure(n), 5)
+                                                                     for n in self.study.measures)]
+                       for row, r in zip(done, residuals)])
+        answer.tables = [table]
+        answer.data = {"best": dict(best.member.values), "half": halves, "residual": residuals[0]}
+        trials = {one.path: (values[one.path], one.unit) for one in self.parameters} | {"residual": (residuals, "")}
+        marks = {one.path: (values[one.path][0], halves[one.path]) for one in self.parameters}
+        answer.pictures = [Picture("search", "Residual of every trial.", lambda figure: pictures.search(figure, trials, marks))]
+        return answer
+
+    def half(self, values, residuals):
+        """Half-width in which chi^2 rises by 1, of a parabola through the nearest members; None where it has none."""
+        x, y = np.array(values), len(self.study.truth) * np.array(residuals) ** 2
+        near = np.argsort(np.abs(x - x[0]))[:6]
+        if len(set(x[near])) < 3:
+            return None
+        curvature = np.polyfit(x[near] - x[0], y[near], 2)[0]
+        return float(1 / math.sqrt(curvature)) if curvature > 0 else None
+
+
+class Unknown(Exception):
+    def __init__(self, one):
+        super().__init__(one.name)
+        self.one = one
