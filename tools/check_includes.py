@@ -21,6 +21,7 @@ LAYERS = {
     "contact": {"core", "points", "grid"},  # nodes and fields, for every kinematics
     "kinematics": {"core", "points", "grid", "contact"},
     "kinematics/mpm": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics"},
+    "kinematics/mesh": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "output": {"core", "points", "grid", "geometry"},
     "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics/mpm", "output"},
 }

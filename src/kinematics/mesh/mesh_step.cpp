@@ -3,183 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include <fmt/format.h>
-
-#include "krater/core/errors.hpp"
+#include "kinematics/mesh/elements.hpp"
 #include "krater/core/parallel.hpp"
 
 namespace krater {
 
 namespace {
 
-constexpr const char* kMethod = "elements";
-constexpr std::size_t kNode = 8, kChange = 4;  ///< doubles
-constexpr int kChunkGroups = 32;               ///< lane groups that one thread takes at once
 constexpr std::size_t kChunkNodes = 512;
 
-ElementColumns columns_of(const Layout& layout) {
-  const auto state = [&]<class F>(F) { return layout.optional<F>().offset; };
-  const auto local = [&]<class F>(F) { return layout.local_optional<F>().offset; };
-  return {.id = state(field::Id{}),
-          .position = state(field::Position{}),
-          .velocity = state(field::Velocity{}),
-          .mass = state(field::Mass{}),
-          .density = state(field::Density{}),
-          .stress = state(field::DeviatoricStress{}),
-          .pressure = state(field::Pressure{}),
-          .viscous = state(field::ViscousPressure{}),
-          .energy = state(field::InternalEnergy{}),
-          .sound_speed = state(field::SoundSpeed{}),
-          .plastic = state(field::PlasticStrain{}),
-          .failed = state(field::Failed{}),
-          .local_gradient = local(field::StepGradient{}),
-          .local_extra = local(field::ExtraDilatation{}),
-          .local_rate = local(field::DilatationRate{}),
-          .local_shear = local(field::ShearModulus{}),
-          .stride = layout.stride(),
-          .local_stride = layout.local_stride()};
-}
-
 }  // namespace
-
-void declare_elements(double density, Layout& layout) {
-  layout.state<field::Id>(0, kMethod);
-  layout.state<field::Position>(0, kMethod);
-  layout.state<field::Velocity>(0, kMethod);
-  layout.state<field::Mass>(0, kMethod);
-  layout.state<field::Density>(density, kMethod);
-  layout.local_output<field::StepGradient>(kMethod);
-  layout.local_output<field::ExtraDilatation>(kMethod);
-}
-
-void declare_element_results(Layout& layout) {
-  if (layout.optional<field::InternalEnergy>().offset < 0)
-    layout.state<field::InternalEnergy>(0, kMethod);
-  layout.local_input<field::DilatationRate>(kMethod);
-}
-
-/// A body's nodes and elements.
-struct MeshStep::Elements {
-  ElementBody made_of;
-  ElementColumns columns;
-  PointStore elements;
-  NodeCorners corners_of;
-  std::vector<std::int32_t> corners;
-  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes;
-  std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
-  std::size_t node_count = 0;
-
-  double* node(std::size_t n) { return nodes.data() + kNode * n; }
-  double* change(std::size_t n) { return changes.data() + kChange * n; }
-};
-
-MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit)
-    : domain_{domain}, dim_{dimension(domain.frame)}, kernels_{kernels}, audit_{audit} {
-  for (const auto& axis : domain.sides)
-    for (const Boundary& side : axis)
-      if (side.drives())
-        throw std::invalid_argument("a side of the domain that drives a body of elements");
-}
-
-MeshStep::~MeshStep() = default;
-
-void MeshStep::add(ElementBody made_of) {
-  auto body = std::make_unique<Elements>();
-  body->made_of = std::move(made_of);
-  const ElementBody& m = body->made_of;
-  const auto nodes_each = static_cast<std::size_t>(m.mesh.corners());
-  const std::size_t count = m.mesh.element_count();
-  body->columns = columns_of(*m.layout);
-  body->corners_of = node_corners(m.mesh);
-  const std::vector<double> volumes = corner_volumes(m.mesh, domain_.frame == Frame::axisymmetric);
-  body->elements = PointStore{m.layout->stride()};
-  std::vector<double> record;
-  for (std::size_t e = 0; e < count; ++e) {
-    double volume = 0;
-    Triple centre{};
-    for (std::size_t I = 0; I < nodes_each; ++I) {
-      const double share = volumes[e * nodes_each + I];
-      const auto n = static_cast<std::size_t>(m.mesh.elements[e * nodes_each + I]);
-      volume += share;
-      for (std::size_t a = 0; a < 3; ++a) centre[a] += share * m.mesh.nodes[n][a];
-      if (!(share > 0))
-        throw InputError(
-            fmt::format("element {} is inverted or has no volume at its corner {}", e, I));
-    }
-    record.assign(static_cast<std::size_t>(m.layout->stride() / kLanes), 0.0);
-    for (const Column& c : m.layout->columns())
-      for (int k = 0; k < c.components; ++k)
-        record[static_cast<std::size_t>(c.offset / kLanes + k)] = c.initial;
-    const auto put = [&](int offset, double value) {
-      record[static_cast<std::size_t>(offset / kLanes)] = value;
-    };
-    put(body->columns.id, static_cast<double>(e));
-    put(body->columns.mass, m.density * volume);
-    for (int a = 0; a < dim_; ++a)
-      put(body->columns.position + kLanes * a, centre[static_cast<std::size_t>(a)] / volume);
-    if (const Column* F = m.layout->find(field::DeformationGradient::info.name))
-      for (int k = 0; k < 9; k += 4) put(F->offset + kLanes * k, 1.0);
-    body->elements.append(record.data());
-  }
-  body->elements.pad(body->columns.mass);
-  // What is sorted by lanes: padding repeats the last element.
-  const auto groups = static_cast<std::size_t>(body->elements.groups());
-  body->corners.resize(groups * nodes_each * kLanes);
-  body->shares.reserve(groups * nodes_each * kLanes);
-  for (std::size_t g = 0; g < groups; ++g)
-    for (std::size_t I = 0; I < nodes_each; ++I)
-      for (std::size_t l = 0; l < kLanes; ++l) {
-        const std::size_t e = std::min(g * kLanes + l, count - 1),
-                          to = (g * nodes_each + I) * kLanes + l;
-        body->corners[to] = m.mesh.elements[e * nodes_each + I];
-        body->shares.data()[to] = m.density * volumes[e * nodes_each + I];
-      }
-  const auto dim = static_cast<std::size_t>(dim_);
-  body->forces.reserve(groups * nodes_each * dim * kLanes);
-  body->hourglass.reserve(groups * 12 * kLanes);
-  body->hourglass_energy.reserve(groups * kLanes);
-  body->remembered.reserve(groups * 2 * kLanes);
-  for (std::size_t g = 0; g < groups; ++g)
-    std::fill_n(body->remembered.data() + 2 * g * kLanes, kLanes, m.shear_modulus);
-  body->node_count = m.mesh.nodes.size();
-  body->nodes.reserve(kNode * body->node_count);
-  body->changes.reserve(kChange * body->node_count + kNode);  // read eight at a time
-  for (std::size_t n = 0; n < body->node_count; ++n) {
-    double* node = body->node(n);
-    for (std::size_t a = 0; a < dim; ++a) {
-      node[a] = m.mesh.nodes[n][a];
-      node[4 + a] = m.velocities.empty() ? 0 : m.velocities[n][a];
-    }
-    for (std::size_t p = body->corners_of.first[n]; p < body->corners_of.first[n + 1]; ++p)
-      node[3] += m.density * volumes[body->corners_of.places[p]];
-    if (!(node[3] > 0)) throw InputError(fmt::format("node {} belongs to no element", n));
-  }
-  note_planes(*body);
-  for (int first = 0; first < body->elements.groups(); first += kChunkGroups)
-    chunks_.push_back(
-        {bodies_.size(), first, std::min(first + kChunkGroups, body->elements.groups())});
-  bodies_.push_back(std::move(body));
-}
-
-/// Nodes that lie on a plane that holds them, and their start.
-void MeshStep::note_planes(Elements& body) const {
-  body.on_plane.assign(body.node_count, 0);
-  double size = 0;
-  for (std::size_t n = 0; n < body.node_count; ++n)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
-      size = std::max(size, std::abs(body.node(n)[a]));
-  for (std::size_t n = 0; n < body.node_count; ++n)
-    for (unsigned a = 0; a < static_cast<unsigned>(dim_); ++a)
-      for (unsigned side = 0; side < 2; ++side) {
-        const bool axis = domain_.frame == Frame::axisymmetric && a == 0 && side == 0;
-        if (domain_.sides[a][side].kind != BoundaryKind::symmetry && !axis) continue;
-        if (std::abs(body.node(n)[a] - domain_.planes[a][side]) > 1e-12 * size) continue;
-        body.on_plane[n] = static_cast<std::uint8_t>(body.on_plane[n] | (1U << a));
-        body.node(n)[4 + a] = 0;
-      }
-}
 
 ElementData MeshStep::data(Elements& b) {
   return {.elements = b.elements.data(),
@@ -351,7 +185,10 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
     for (std::size_t a = 0; a < dim; ++a)
       for (std::size_t side = 0; side < 2; ++side) {
         const Triple push = push_of(domain_.sides[a][side], a, side, dt, node, change);
-        for (std::size_t t = 0; t < dim; ++t) change[t] += push[t], all[t] += push[t];
+        for (std::size_t t = 0; t < dim; ++t) {
+          change[t] += push[t];
+          all[t] += push[t];
+        }
       }
     for (std::size_t t = 0; t < dim; ++t) {
       node[7] -= all[t] * (node[4 + t] + 0.5 * change[t]);

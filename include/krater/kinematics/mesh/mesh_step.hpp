@@ -74,7 +74,8 @@ class MeshStep final : public Kinematics {
 
   double hourglass_energy() const {
     return hourglass_energy_;
-  }  ///< part of the internal energy [J]
+  }                 ///< part of the internal energy [J]
+  struct Elements;  ///< of one body
   std::size_t node_count(int s) const;
   Triple position(int s, std::size_t node) const;
   Triple velocity(int s, std::size_t node) const;
@@ -82,7 +83,6 @@ class MeshStep final : public Kinematics {
   Triple force_of(int s, std::size_t node) const;  ///< of the elements, as last found [N]
 
  private:
-  struct Elements;
   struct WallSums {
     double heat = 0;
     std::array<double, 3> impulse{};

@@ -160,6 +160,44 @@ struct Kept {
   static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16;
 };
 
+/// The step's map of an element and its volume before.
+struct StepMap {
+  Mat3<Pack> dtL;
+  Pack volume;
+  double dt;
+};
+
+/// Where the corners go: exact volume, length, and the place and velocity of the whole.
+template <class Frame>
+KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& w,
+                                    const ElementViews& view, const StepMap& map,
+                                    const Pack (&share)[corner_nodes(Frame::dim)], int g, int local,
+                                    Corners<Frame::dim>& at) {
+  constexpr int D = Frame::dim, N = corner_nodes(D);
+  for (int I = 0; I < N; ++I)
+    for (int i = 0; i < D; ++i) at.x[I][i] = fma(Pack(map.dt), at.v[I][i], at.x[I][i]);
+  ElementGeometry<Pack, Frame> after;
+  find_geometry(at.x, after);
+  const Pack det_f = det_minus_one(map.dtL) + 1.0, ratio = after.volume / (map.volume * det_f);
+  double* record = w.local + local * d.columns.local_stride;
+  store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, map.dtL);
+  store(record + d.columns.local_extra, 2.0 * (ratio - 1.0) / (ratio + 1.0));
+  const Pack measure = plane_measure(at.x, after.volume);
+  store(w.length + local * kLanes,
+        D == 3 ? measure * rcbrt(measure) * rcbrt(measure) : sqrt(measure));
+  Pack mass = 0.0;
+  for (const Pack& m : share) mass = mass + m;
+  for (int i = 0; i < D; ++i) {
+    Pack x = 0.0, v = 0.0;
+    for (int I = 0; I < N; ++I) {
+      x = fma(share[I], at.x[I][i], x);
+      v = fma(share[I], at.v[I][i], v);
+    }
+    view.position.set(g, i, x / mass);
+    view.velocity.set(g, i, v / mass);
+  }
+}
+
 /// Before the stages: work into e, strain, density.
 template <class Frame, Holding Kind>
 KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch& w,
@@ -205,26 +243,7 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
     store(kept + Kept::volume * kLanes, e.volume);
     store(kept + Kept::plastic * kLanes, view.plastic(g));
   }
-  for (int I = 0; I < N; ++I)
-    for (int i = 0; i < D; ++i) at.x[I][i] = fma(Pack(dt), at.v[I][i], at.x[I][i]);
-  ElementGeometry<Pack, Frame> after;
-  find_geometry(at.x, after);
-  const Pack det_f = det_minus_one(dtL) + 1.0, ratio = after.volume * per_volume / det_f;
-  double* record = w.local + local * d.columns.local_stride;
-  store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, dtL);
-  store(record + d.columns.local_extra, 2.0 * (ratio - 1.0) / (ratio + 1.0));
-  const Pack measure = plane_measure(at.x, after.volume);
-  store(w.length + local * kLanes,
-        D == 3 ? measure * rcbrt(measure) * rcbrt(measure) : sqrt(measure));
-  for (int i = 0; i < D; ++i) {
-    Pack x = 0.0, v = 0.0;
-    for (int I = 0; I < N; ++I) {
-      x = fma(share[I], at.x[I][i], x);
-      v = fma(share[I], at.v[I][i], v);
-    }
-    view.position.set(g, i, x / mass);
-    view.velocity.set(g, i, v / mass);
-  }
+  move_group<Frame>(d, w, view, {dtL, e.volume, dt}, share, g, local, at);
 }
 
 /// After the stages: Q <- s (Q + dQ), s = q/(q + 3 G d eps) of the radial return; nothing of failed

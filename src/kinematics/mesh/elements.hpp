@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The nodes and elements of one body, as mesh_step.hpp steps them.
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "krater/kinematics/mesh/mesh_step.hpp"
+
+namespace krater {
+
+inline constexpr std::size_t kNode = 8, kChange = 4;  ///< doubles of a node and of its change
+
+/// A body's nodes and elements.
+struct MeshStep::Elements {
+  ElementBody made_of;
+  ElementColumns columns;
+  PointStore elements;
+  NodeCorners corners_of;
+  std::vector<std::int32_t> corners;
+  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes;
+  std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
+  std::size_t node_count = 0;
+
+  std::size_t corner_count() const { return static_cast<std::size_t>(made_of.mesh.corners()); }
+  double* node(std::size_t n) { return nodes.data() + kNode * n; }
+  double* change(std::size_t n) { return changes.data() + kChange * n; }
+};
+
+}  // namespace krater

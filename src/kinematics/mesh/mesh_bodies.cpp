@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a body of elements is put together.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "kinematics/mesh/elements.hpp"
+#include "krater/core/errors.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr const char* kMethod = "elements";
+constexpr int kChunkGroups = 32;  ///< lane groups that one thread takes at once
+
+ElementColumns columns_of(const Layout& layout) {
+  const auto state = [&]<class F>(F) { return layout.optional<F>().offset; };
+  const auto local = [&]<class F>(F) { return layout.local_optional<F>().offset; };
+  return {.id = state(field::Id{}),
+          .position = state(field::Position{}),
+          .velocity = state(field::Velocity{}),
+          .mass = state(field::Mass{}),
+          .density = state(field::Density{}),
+          .stress = state(field::DeviatoricStress{}),
+          .pressure = state(field::Pressure{}),
+          .viscous = state(field::ViscousPressure{}),
+          .energy = state(field::InternalEnergy{}),
+          .sound_speed = state(field::SoundSpeed{}),
+          .plastic = state(field::PlasticStrain{}),
+          .failed = state(field::Failed{}),
+          .local_gradient = local(field::StepGradient{}),
+          .local_extra = local(field::ExtraDilatation{}),
+          .local_rate = local(field::DilatationRate{}),
+          .local_shear = local(field::ShearModulus{}),
+          .stride = layout.stride(),
+          .local_stride = layout.local_stride()};
+}
+
+/// One element of `share[I]` volumes as a record of its columns.
+void fill_record(const ElementBody& made_of, const ElementColumns& c, std::size_t element,
+                 const double* share, std::vector<double>& record) {
+  const Mesh& mesh = made_of.mesh;
+  const auto corners = static_cast<std::size_t>(mesh.corners());
+  double volume = 0;
+  Triple centre{};
+  for (std::size_t I = 0; I < corners; ++I) {
+    const auto n = static_cast<std::size_t>(mesh.elements[element * corners + I]);
+    volume += share[I];
+    for (std::size_t a = 0; a < 3; ++a) centre[a] += share[I] * mesh.nodes[n][a];
+    if (!(share[I] > 0))
+      throw InputError(
+          fmt::format("element {} is inverted or has no volume at its corner {}", element, I));
+  }
+  record.assign(static_cast<std::size_t>(made_of.layout->stride() / kLanes), 0.0);
+  const auto put = [&](int offset, double value) {
+    record[static_cast<std::size_t>(offset / kLanes)] = value;
+  };
+  for (const Column& column : made_of.layout->columns())
+    for (int k = 0; k < column.components; ++k) put(column.offset + kLanes * k, column.initial);
+  put(c.id, static_cast<double>(element));
+  put(c.mass, made_of.density * volume);
+  for (int a = 0; a < mesh.dimension; ++a)
+    put(c.position + kLanes * a, centre[static_cast<std::size_t>(a)] / volume);
+  if (const Column* F = made_of.layout->find(field::DeformationGradient::info.name))
+    for (int k = 0; k < 9; k += 4) put(F->offset + kLanes * k, 1.0);
+}
+
+/// What is sorted by lanes; padding repeats the last element.
+void sort_by_lanes(const std::vector<double>& volumes, MeshStep::Elements& body) {
+  const Mesh& mesh = body.made_of.mesh;
+  const std::size_t corners = body.corner_count(), count = mesh.element_count(),
+                    groups = static_cast<std::size_t>(body.elements.groups()),
+                    dim = static_cast<std::size_t>(mesh.dimension);
+  body.corners.resize(groups * corners * kLanes);
+  body.shares.reserve(groups * corners * kLanes);
+  for (std::size_t g = 0; g < groups; ++g)
+    for (std::size_t I = 0; I < corners; ++I)
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        const std::size_t from = std::min(g * kLanes + l, count - 1) * corners + I,
+                          to = (g * corners + I) * kLanes + l;
+        body.corners[to] = mesh.elements[from];
+        body.shares.data()[to] = body.made_of.density * volumes[from];
+      }
+  body.forces.reserve(groups * corners * dim * kLanes);
+  body.hourglass.reserve(groups * (dim == 3 ? 12 : 2) * kLanes);
+  body.hourglass_energy.reserve(groups * kLanes);
+  body.remembered.reserve(groups * 2 * kLanes);
+  for (std::size_t g = 0; g < groups; ++g)
+    std::fill_n(body.remembered.data() + 2 * g * kLanes, kLanes, body.made_of.shear_modulus);
+}
+
+void place_nodes(const std::vector<double>& volumes, MeshStep::Elements& body) {
+  const ElementBody& made_of = body.made_of;
+  body.node_count = made_of.mesh.nodes.size();
+  body.nodes.reserve(kNode * body.node_count);
+  body.changes.reserve(kChange * body.node_count + kNode);  // read eight at a time
+  for (std::size_t n = 0; n < body.node_count; ++n) {
+    double* node = body.node(n);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(made_of.mesh.dimension); ++a) {
+      node[a] = made_of.mesh.nodes[n][a];
+      node[4 + a] = made_of.velocities.empty() ? 0 : made_of.velocities[n][a];
+    }
+    for (std::size_t p = body.corners_of.first[n]; p < body.corners_of.first[n + 1]; ++p)
+      node[3] += made_of.density * volumes[body.corners_of.places[p]];
+    if (!(node[3] > 0)) throw InputError(fmt::format("node {} belongs to no element", n));
+  }
+}
+
+}  // namespace
+
+void declare_elements(double density, Layout& layout) {
+  layout.state<field::Id>(0, kMethod);
+  layout.state<field::Position>(0, kMethod);
+  layout.state<field::Velocity>(0, kMethod);
+  layout.state<field::Mass>(0, kMethod);
+  layout.state<field::Density>(density, kMethod);
+  layout.local_output<field::StepGradient>(kMethod);
+  layout.local_output<field::ExtraDilatation>(kMethod);
+}
+
+void declare_element_results(Layout& layout) {
+  if (layout.optional<field::InternalEnergy>().offset < 0)
+    layout.state<field::InternalEnergy>(0, kMethod);
+  layout.local_input<field::DilatationRate>(kMethod);
+}
+
+MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit)
+    : domain_{domain}, dim_{dimension(domain.frame)}, kernels_{kernels}, audit_{audit} {
+  for (const auto& axis : domain.sides)
+    for (const Boundary& side : axis)
+      if (side.drives())
+        throw std::invalid_argument("a side of the domain that drives a body of elements");
+}
+
+MeshStep::~MeshStep() = default;
+
+void MeshStep::add(ElementBody made_of) {
+  auto body = std::make_unique<Elements>();
+  body->made_of = std::move(made_of);
+  const ElementBody& m = body->made_of;
+  body->columns = columns_of(*m.layout);
+  body->corners_of = node_corners(m.mesh);
+  const std::vector<double> volumes = corner_volumes(m.mesh, domain_.frame == Frame::axisymmetric);
+  body->elements = PointStore{m.layout->stride()};
+  std::vector<double> record;
+  for (std::size_t e = 0; e < m.mesh.element_count(); ++e) {
+    fill_record(m, body->columns, e, volumes.data() + e * body->corner_count(), record);
+    body->elements.append(record.data());
+  }
+  body->elements.pad(body->columns.mass);
+  sort_by_lanes(volumes, *body);
+  place_nodes(volumes, *body);
+  note_planes(*body);
+  for (int first = 0; first < body->elements.groups(); first += kChunkGroups)
+    chunks_.push_back(
+        {bodies_.size(), first, std::min(first + kChunkGroups, body->elements.groups())});
+  bodies_.push_back(std::move(body));
+}
+
+/// Nodes that lie on a plane that holds them, and their start.
+void MeshStep::note_planes(Elements& body) const {
+  body.on_plane.assign(body.node_count, 0);
+  double size = 0;
+  for (std::size_t n = 0; n < body.node_count; ++n)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
+      size = std::max(size, std::abs(body.node(n)[a]));
+  for (std::size_t n = 0; n < body.node_count; ++n)
+    for (unsigned a = 0; a < static_cast<unsigned>(dim_); ++a)
+      for (unsigned side = 0; side < 2; ++side) {
+        const bool axis = domain_.frame == Frame::axisymmetric && a == 0 && side == 0;
+        if (domain_.sides[a][side].kind != BoundaryKind::symmetry && !axis) continue;
+        if (std::abs(body.node(n)[a] - domain_.planes[a][side]) > 1e-12 * size) continue;
+        body.on_plane[n] = static_cast<std::uint8_t>(body.on_plane[n] | (1U << a));
+        body.node(n)[4 + a] = 0;
+      }
+}
+
+}  // namespace krater
