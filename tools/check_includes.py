@@ -23,7 +23,8 @@ LAYERS = {
     "kinematics/mpm": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics"},
     "kinematics/mesh": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "output": {"core", "points", "grid", "geometry"},
-    "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics/mpm", "output"},
+    "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics/mpm", "kinematics/mesh",
+              "output"},
 }
 for folder, also in {"simulation": {"scene", "kinematics"}, "measure": {"simulation"}, "point_driver": {"simulation"},
                      "app": {"measure", "point_driver"}}.items():

@@ -88,6 +88,20 @@ void print_shape(const Scene& scene, const Body& body, int coarser) {
       coarser * body.fill_report().smallest_thickness_in_cells, body.thickness() / scene.grid.cell);
 }
 
+void print_mesh(const Scene& scene, const BodyOptions& body) {
+  const Box box =
+      intersection(body.solid->extent(scene.frame), domain_box(scene), dimension(scene.frame));
+  const auto counts = elements_along(scene.frame, box.min, box.max, body.mesh->element);
+  fmt::print("  lagrangian mesh:");
+  for (int a = 0; a < dimension(scene.frame); ++a)
+    fmt::print("{} {} elements of {:.4g} m along {}", a > 0 ? "," : "",
+               counts[static_cast<std::size_t>(a)],
+               box.length(a) / counts[static_cast<std::size_t>(a)], axis_name(scene.frame, a));
+  fmt::print("; hourglass: {}\n", body.mesh->hourglass.kind == HourglassOptions::Kind::viscous
+                                      ? "viscous"
+                                      : "assumed strain");
+}
+
 void print_body(const Simulation& sim, const Scene& scene, int index, int coarser) {
   const Body& body = *sim.bodies()[static_cast<std::size_t>(index)];
   const Totals t = sim.totals(index);
@@ -97,10 +111,13 @@ void print_body(const Simulation& sim, const Scene& scene, int index, int coarse
   if (const RigidBody* rigid = sim.rigid().find(index))
     fmt::print("  rigid, {}:{}\n", rigid->options().free ? "free" : "prescribed motion",
                describe_motion(scene.frame, rigid->options()));
-  print_shape(scene, body, coarser);
+  if (body.options().mesh)
+    print_mesh(scene, body.options());
+  else
+    print_shape(scene, body, coarser);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
-  if (!body.options().rigid())
+  if (!body.options().rigid() && !body.options().mesh)
     fmt::print("\n  pressure: {}", body.pressure_on_grid(sim.scene())
                                        ? "integrated on the grid (a fluid, or a soft solid)"
                                        : "integrated over the points");

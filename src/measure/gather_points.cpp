@@ -134,6 +134,13 @@ void gather_points(const Simulation& sim, const std::vector<int>& bodies, const 
     for (auto& [name, values] : out.scalars)
       wanted[b].push_back(
           {&values, slot_of(*sim.bodies()[static_cast<std::size_t>(bodies[b])], name)});
+  out.edges.clear();
+  for (const SetPlace& place : places) {
+    if (sim.mesh() == nullptr) break;
+    for (const auto& [a, b] : sim.mesh()->surface(place.set))
+      out.edges.push_back({sim.mesh()->position(place.set, static_cast<std::size_t>(a)),
+                           sim.mesh()->position(place.set, static_cast<std::size_t>(b))});
+  }
   for_each(places.size(), [&](std::size_t i) {
     gather_set(sim, places[i].set, wanted[places[i].body], places[i].first, out);
   });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/measure/measure_surface.hpp"
 
+#include "measure/mesh_surface.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -174,6 +176,13 @@ Band flat_band(const BodyPoints& body, const MeasureContext& context, double z0)
 
 /// Diameter at z0, between the lowest and highest place of the body.
 double diameter_at(const BodyPoints& body, const MeasureContext& context, double z0) {
+  if (!body.edges.empty()) {
+    std::array<std::optional<double>, 2> middle;
+    for (int d = 0; d + 1 < dimension(context.frame); ++d)
+      if (const std::optional<int> side = cut_side(body, context, d))
+        middle[index(d)] = *side == 0 ? context.min[index(d)] : context.max[index(d)];
+    return mesh_diameter(body, context.frame, middle, z0);
+  }
   if (context.frame != Frame::plane_strain) {
     const std::optional<double> r = edge(round_band(body, context, z0), 1);
     return r ? 2 * *r : kNothing;
@@ -299,6 +308,10 @@ std::array<double, 2> ends(const BodyPoints& body, const MeasureContext& context
   std::optional<std::array<double, 2>> found;
   auto& kept = body.memo ? body.memo->ends[index(axis)] : found;
   if (kept) return *kept;
+  if (!body.edges.empty()) {
+    kept = mesh_ends(body, axis);
+    return *kept;
+  }
   const VolumeFraction fraction = volume_fraction(body, context);
   const VolumeFraction::Walls walls = walls_of(context);
   const Reach points = reach(body, context, axis);
@@ -333,6 +346,12 @@ double diameter(const BodyPoints& body, const MeasureContext& context, double at
 double largest_diameter(const BodyPoints& body, const MeasureContext& context, double within) {
   const auto [low, top] = ends(body, context, dimension(context.frame) - 1);
   const double high = within > 0 ? std::min(top, low + within) : top;
+  if (!body.edges.empty()) {
+    double widest = kNothing;
+    for (const double z : mesh_heights(body, dimension(context.frame) - 1, low, high))
+      widest = std::fmax(widest, diameter_at(body, context, z));
+    return widest;
+  }
   const Slices slices{body, context};
   const double heights = std::max(1.0, std::ceil((high - low) / node_spacing(context)));
   double largest = kNothing;

@@ -9,6 +9,7 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/geometry/seeds/thickness.hpp"
+#include "krater/kinematics/mesh/mesh_step.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/points/load_fields.hpp"
@@ -74,16 +75,23 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     declare_rigid_points(method, material_->density, layout_);
     return;
   }
-  declare_points(method,
-                 {.density = material_->density,
-                  .loaded = scene.body_force != nullptr,
-                  .face_loads = !loads_of(scene, index).empty(),
-                  .walls = has_wall(scene),
-                  .reference_position = wants(scene, field::ReferencePosition::info),
-                  .deformation = wants(scene, field::DeformationGradient::info)},
-                 layout_);
+  if (options_->mesh) {
+    declare_elements(material_->density, layout_);
+  } else {
+    declare_points(method,
+                   {.density = material_->density,
+                    .loaded = scene.body_force != nullptr,
+                    .face_loads = !loads_of(scene, index).empty(),
+                    .walls = has_wall(scene),
+                    .reference_position = wants(scene, field::ReferencePosition::info),
+                    .deformation = wants(scene, field::DeformationGradient::info)},
+                   layout_);
+  }
   add_stages(factory);
-  declare_results(heat_floor_ != nullptr, pressure_on_grid(scene), layout_);
+  if (options_->mesh)
+    declare_element_results(layout_);
+  else
+    declare_results(heat_floor_ != nullptr, pressure_on_grid(scene), layout_);
   layout_.check();
   const Column* c = layout_.find(field::SoundSpeed::info.name);
   const double bulk = c == nullptr ? 0 : c->initial;
@@ -92,7 +100,7 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
 
 bool Body::pressure_on_grid(const Scene& scene) const {
   const Column* c = layout_.find(field::SoundSpeed::info.name);
-  if (c == nullptr || scene.method.reference != Reference::current) return false;
+  if (c == nullptr || options_->mesh || scene.method.reference != Reference::current) return false;
   return scene.method.grid_pressure == GridPressure::all ||
          (scene.method.grid_pressure == GridPressure::fluids && is_fluid());
 }

@@ -53,8 +53,12 @@ KernelShape kernel_shape(Shape s) {
   return KernelShape::quadratic_bspline;
 }
 
-/// Of the limit that theory 12 derives for B-splines; measured on the same free block.
-double stable_share(const MethodOptions& method) {
+/// Of the limit that theory 12 derives for B-splines; measured on the same free block. Elements
+/// have a limit of their own (kinematics/mesh/element.hpp), which is sharp.
+double stable_share(const Scene& scene) {
+  const MethodOptions& method = scene.method;
+  for (const BodyOptions& body : scene.bodies)
+    if (body.mesh) return 1;
   if (method.transfer == Transfer::xpic) return 0.6;  // its filter feeds back what it takes
   return method.shape == Shape::gimp && method.update == Update::usl ? 0.8 : 1;
 }
@@ -84,8 +88,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       contact_{geometry_, scene.grid.boundary, scene.frame == Frame::axisymmetric,
                scene.method.shape == Shape::linear, scene.contact},
       energy_watch_{boundary_},
-      clock_{{stable_share(scene.method) * scene.time.cfl, scene.time.first_step,
-              scene.time.min_step, scene.time.max_step}} {
+      clock_{{stable_share(scene) * scene.time.cfl, scene.time.first_step, scene.time.min_step,
+              scene.time.max_step}} {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     bodies_.push_back(std::make_unique<Body>(scene, static_cast<int>(b), stage_factory(level)));
     kernel_data_.push_back(bodies_.back()->kernel_data());
@@ -108,6 +112,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
                                    kernel_data_, audit_, *loads_});
   place_rigid_bodies();
+  place_meshes();
   choose_first_step();
   const Totals start = totals();
   audit_.kinetic = audit_.initial_kinetic = start.kinetic;
@@ -150,6 +155,7 @@ void Simulation::place_points() {
   std::vector<double> record;
   double smallest = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b]->options().mesh) continue;
     const std::vector<SeedPoint> seeds = bodies_[b]->seeds(scene_);
     const int stride = bodies_[b]->layout().stride();
     for (std::size_t id = 0; id < seeds.size(); ++id) {
@@ -171,6 +177,11 @@ void Simulation::place_points() {
 }
 
 void Simulation::choose_first_step() {
+  if (mesh_) {
+    limit_ = mesh_->limit();
+    require_steps(scene_.time, clock_.stable_step(limit_.rate));
+    return clock_.start(limit_.rate);
+  }
   double fastest = 0, signal = 0;
   for (const Patch& p : grid_.patches()) {
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
@@ -207,28 +218,24 @@ const char* Simulation::limiter() const {
 std::string Simulation::describe_limit() const {
   const std::string text = fmt::format("limited by {}", limiter());
   if (limit_.body < 0) return text;  // at the start, with everything at rest
-  for (int n = 0; n < static_cast<int>(grid_.patches().size()); ++n) {
-    const Patch& p = grid_.patches()[static_cast<std::size_t>(n)];
-    if (p.body != limit_.body) continue;
-    const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
-    const int id = body.slot(field::Id::info);
-    for (int i = 0; i < p.points.count(); ++i)
+  for (const int n : sets_of(limit_.body)) {
+    const int id = bodies_[static_cast<std::size_t>(limit_.body)]->slot(field::Id::info);
+    for (int i = 0; i < set(n).count(); ++i)
       if (value(n, i, id) == limit_.id)
         return fmt::format("{} of {}{}", text, describe_point(n, i), limiting_field(n, i));
   }
   return text + " of a point that is gone";
 }
 
-std::string Simulation::limiting_field(int patch, int point) const {
+std::string Simulation::limiting_field(int s, int point) const {
   const char* field = limit_.kind == 0   ? field::SoundSpeed::info.name
                       : limit_.kind == 1 ? field::Velocity::info.name
                                          : field::Density::info.name;
-  const Patch& p = grid_.patches()[static_cast<std::size_t>(patch)];
-  const Column* column = bodies_[static_cast<std::size_t>(p.body)]->layout().find(field);
+  const Column* column = bodies_[static_cast<std::size_t>(set(s).body)]->layout().find(field);
   std::string text;
   for (int k = 0; column != nullptr && k < column->components; ++k)
     text += fmt::format("{}{:.6g}", k == 0 ? fmt::format("; field '{}' is ", field) : ", ",
-                        value(patch, point, column->offset / kLanes + k));
+                        value(s, point, column->offset / kLanes + k));
   return text;
 }
 
@@ -252,13 +259,16 @@ void Simulation::step(double until) {
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;
   try {
-    Kinematics* const all[] = {step_.get()};
+    Kinematics* const all[] = {&moving()};
     taken = take_step(all, asked);
   } catch (const StepFault& fault) {
     broken_ = true;
-    const std::string text = describe_fault(fault);
+    const std::string text = describe_fault(fault.patch, fault.fault);
     deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
     throw NumericalError(text);
+  } catch (const ElementFault& fault) {
+    broken_ = true;
+    throw NumericalError(describe_fault(fault.set, fault.fault));
   } catch (const EnergyError& e) {
     fail_energy(e);
   } catch (const NumericalError& e) {
@@ -269,7 +279,7 @@ void Simulation::step(double until) {
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
-  limit_ = step_->limit();
+  limit_ = moving().limit();
   try {
     energy_watch_.check(audit_, taken);
   } catch (const EnergyError& e) {

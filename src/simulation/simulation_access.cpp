@@ -42,11 +42,12 @@ double Simulation::bytes_per_point() const {
     doubles += static_cast<double>(p.points.capacity() + p.tile.nodes.size() + p.beta.size()) +
                sizeof(Patch) / 8.0;
   doubles += static_cast<double>(grid_.node_blocks().size()) * kBlockNodes * kNodeDoubles;
+  if (mesh_) doubles += static_cast<double>(mesh_->memory()) / 8;
   return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
 }
 
 void Simulation::set_value(int s, int point, int slot, double x) {
-  step_->change(s).at(kLanes * slot, point) = x;
+  moving().change(s).at(kLanes * slot, point) = x;
 }
 
 void Simulation::book_change() {
@@ -81,6 +82,7 @@ Totals& Totals::operator+=(const Totals& other) {
 }
 
 Totals Simulation::totals_of_set(int s) const {
+  if (mesh_) return totals_of_mesh(s);
   Totals t;
   const int dim = geometry_.dimension;
   const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
@@ -110,10 +112,10 @@ Totals Simulation::totals_of_set(int s) const {
 }
 
 std::vector<Totals> Simulation::totals_by_body() const {
-  std::vector<Totals> sets(grid_.patches().size()), out(bodies_.size());
+  std::vector<Totals> sets(static_cast<std::size_t>(set_count())), out(bodies_.size());
   for_each(sets.size(), [&](std::size_t s) { sets[s] = totals_of_set(static_cast<int>(s)); });
   for (std::size_t s = 0; s < sets.size(); ++s)
-    out[static_cast<std::size_t>(grid_.patches()[s].body)] += sets[s];
+    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sets[s];
   return out;
 }
 
@@ -123,53 +125,69 @@ Totals Simulation::totals() const {
   return t;
 }
 
-std::string Simulation::describe_point(int patch, int point) const {
-  const Patch& p = grid_.patches()[static_cast<std::size_t>(patch)];
-  const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
+std::string Simulation::describe_point(int s, int point) const {
+  const Body& body = *bodies_[static_cast<std::size_t>(set(s).body)];
   std::string position;
   for (int a = 0; a < geometry_.dimension; ++a)
     position += fmt::format("{}{} = {:.6e} m", a > 0 ? ", " : "", axis_name(scene_.frame, a),
-                            value(patch, point, body.slot(field::Position::info, a)));
-  return fmt::format("body '{}', point {:.0f} at {}", body.name(),
-                     value(patch, point, body.slot(field::Id::info)), position);
+                            value(s, point, body.slot(field::Position::info, a)));
+  return fmt::format("body '{}', {} {:.0f} at {}", body.name(), mesh_ ? "element" : "point",
+                     value(s, point, body.slot(field::Id::info)), position);
+}
+
+double Simulation::energy_per_mass(int s, int point) const {
+  const Body& body = *bodies_[static_cast<std::size_t>(set(s).body)];
+  double energy = 0;
+  if (mesh_) {
+    for (int a = 0; a < geometry_.dimension; ++a) {
+      const double v = value(s, point, body.slot(field::Velocity::info, a));
+      energy += 0.5 * v * v;
+    }
+  } else {
+    const PointColumns& c = kernel_data_[static_cast<std::size_t>(set(s).body)].columns;
+    energy = point_kinetic(grid_.patches()[static_cast<std::size_t>(s)], point, c, geometry_) /
+             value(s, point, c.mass / kLanes);
+  }
+  const int e = body.slot(field::InternalEnergy::info);
+  return e < 0 ? energy : energy + value(s, point, e);
 }
 
 /// The point with the greatest energy per mass.
 std::string Simulation::describe_hottest() const {
   double greatest = -1;
   std::pair<int, int> where{0, 0};
-  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
-    const Patch& patch = grid_.patches()[p];
-    const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-    for (int i = 0; i < patch.points.count(); ++i) {
-      const int n = static_cast<int>(p);
-      double energy = point_kinetic(patch, i, c, geometry_) / value(n, i, c.mass / kLanes);
-      if (c.energy >= 0) energy += value(n, i, c.energy / kLanes);
-      if (energy > greatest || std::isnan(energy)) {
-        greatest = energy;
-        where = {n, i};
-      }
-      if (std::isnan(energy)) return describe_point(n, i) + ", which is not finite";
+  for (int s = 0; s < set_count(); ++s)
+    for (int i = 0; i < set(s).count(); ++i) {
+      const double energy = energy_per_mass(s, i);
+      if (std::isnan(energy)) return describe_point(s, i) + ", which is not finite";
+      if (energy <= greatest) continue;
+      greatest = energy;
+      where = {s, i};
     }
-  }
   return fmt::format("most per mass, {:.4g} J/kg, at {}", greatest,
                      describe_point(where.first, where.second));
 }
 
-std::string Simulation::describe_fault(const StepFault& fault) const {
-  const Patch& patch = grid_.patches()[static_cast<std::size_t>(fault.patch)];
+std::string Simulation::describe_fault(int s, const Fault& fault) const {
   int lane = 0;
-  while (lane < kLanes - 1 && ((fault.fault.lanes >> lane) & 1U) == 0) ++lane;
-  const int point = std::min(kLanes * fault.fault.group + lane, patch.points.count() - 1);
+  while (lane < kLanes - 1 && ((fault.lanes >> lane) & 1U) == 0) ++lane;
+  const int point = std::min(kLanes * fault.group + lane, set(s).count() - 1);
   std::string field = "all fields finite";
-  for (const Column& c : bodies_[static_cast<std::size_t>(patch.body)]->layout().columns())
+  for (const Column& c : bodies_[static_cast<std::size_t>(set(s).body)]->layout().columns())
     for (int k = 0; k < c.components && field == "all fields finite"; ++k) {
-      const double x = value(fault.patch, point, c.offset / kLanes + k);
+      const double x = value(s, point, c.offset / kLanes + k);
       if (!std::isfinite(x))
         field = fmt::format("field '{}' component {} is {}", c.field->name, k, x);
     }
-  return fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(fault.patch, point),
-                     text_of(fault.fault.kind), field, time(), steps());
+  return fmt::format("{}: {}; {}; time {:.6e} s, step {}", describe_point(s, point),
+                     text_of(fault.kind), field, time(), steps());
+}
+
+std::vector<int> Simulation::sets_of(int body) const {
+  std::vector<int> out;
+  for (int s = 0; s < set_count(); ++s)
+    if (set(s).body == body) out.push_back(s);
+  return out;
 }
 
 }  // namespace krater

@@ -61,12 +61,11 @@ const CheckpointBlob& demand(const Checkpoint& checkpoint, const std::string& na
 
 void Simulation::save_body(int b, Checkpoint& out) const {
   const Body& body = *bodies_[static_cast<std::size_t>(b)];
-  std::vector<int> patches;
   std::vector<std::int64_t> keys;
-  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
-    const Patch& patch = grid_.patches()[p];
-    if (patch.body != b) continue;
-    patches.push_back(static_cast<int>(p));
+  const std::vector<int> sets = sets_of(b);
+  for (const int s : sets) {
+    if (mesh_) continue;
+    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
     keys.push_back(patch.points.count());
   }
@@ -76,11 +75,13 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   std::uint64_t rows = 0;
   for (const Column& c : body.layout().columns())
     for (int k = 0; k < c.components; ++k, ++rows)
-      for (const int p : patches)
-        for (int i = 0; i < grid_.patches()[static_cast<std::size_t>(p)].points.count(); ++i)
-          values.push_back(value(p, i, c.offset / kLanes + k));
+      for (const int s : sets)
+        for (int i = 0; i < set(s).count(); ++i)
+          values.push_back(value(s, i, c.offset / kLanes + k));
   const std::uint64_t points = rows > 0 ? values.size() / rows : 0;
   out.blobs.push_back({blob_name(body, "points"), {rows, points}, std::move(values), {}, {}});
+  if (mesh_ && !sets.empty())
+    out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(sets.front())));
   if (const RigidBody* rigid = rigid_.find(b))
     out.blobs.push_back(numbers(blob_name(body, "rigid"), rigid->state()));
 }
@@ -105,6 +106,7 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   if (demand(checkpoint, blob_name(body, "columns")).text != columns_text(body))
     throw InputError("checkpoint: body '" + body.name() +
                      "' has other columns there: another law, method or version of krater");
+  if (mesh_) return restore_mesh(b, checkpoint);
   const std::vector<double>& x = demand(checkpoint, blob_name(body, "points")).doubles;
   const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;

@@ -82,6 +82,8 @@ struct BodyPoints {
   /// 1 for rubble: failed and at less than half of the density at rest, so that nothing of it holds
   /// together; empty: none.
   std::vector<unsigned char> rubble;
+  /// Of elements: the edges of their surface, which then is known; empty: points.
+  std::vector<std::array<Triple, 2>> edges;
   /// Of points that change no more; none: every measure looks for itself.
   std::shared_ptr<SurfaceMemo> memo;
 

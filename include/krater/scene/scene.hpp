@@ -14,6 +14,7 @@
 #include "krater/geometry/frame.hpp"
 #include "krater/geometry/seeds/lattice.hpp"
 #include "krater/geometry/solids/solid.hpp"
+#include "krater/kinematics/mesh/options.hpp"
 #include "krater/kinematics/mpm/load_options.hpp"
 #include "krater/kinematics/mpm/options.hpp"
 #include "krater/materials/stage.hpp"
@@ -96,6 +97,7 @@ struct BodyOptions {
   PointOptions points;
   std::shared_ptr<const FieldFunction> velocity;  ///< at the start, prescribed: at all times;
                                                   ///< null: at rest
+  std::optional<MeshOptions> mesh;                ///< of elements; none: of material points
   Motion motion = Motion::deformable;
   bool rigid() const { return motion != Motion::deformable; }
 };

@@ -10,6 +10,7 @@
 
 #include "krater/kinematics/clock.hpp"
 #include "krater/kinematics/loads.hpp"
+#include "krater/kinematics/mesh/mesh_step.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
 #include "krater/output/results.hpp"
@@ -80,8 +81,9 @@ class Simulation {
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
   /// All points, in sets of one body; the order is part of the state.
-  int set_count() const { return step_->set_count(); }
-  PointSet set(int s) const { return step_->set(s); }
+  int set_count() const { return moving().set_count(); }
+  PointSet set(int s) const { return moving().set(s); }
+  const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
   /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
   /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
@@ -95,6 +97,15 @@ class Simulation {
       const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
 
  private:
+  /// What moves the bodies: elements, or material points.
+  Kinematics& moving() { return mesh_ ? static_cast<Kinematics&>(*mesh_) : *step_; }
+  const Kinematics& moving() const {
+    return mesh_ ? static_cast<const Kinematics&>(*mesh_) : *step_;
+  }
+  void place_meshes();
+  Totals totals_of_mesh(int s) const;
+  std::vector<int> sets_of(int body) const;
+  void restore_mesh(int body, const Checkpoint& checkpoint);
   std::unique_ptr<NodeLoads> make_loads();
   Totals totals_of_set(int s) const;
   void place_points();
@@ -106,11 +117,12 @@ class Simulation {
   bool walls_act_on_points() const;
   std::array<double, 3> apply_point_walls(double dt);  ///< force on the points [N]
   double next_step(double until);
-  std::string limiting_field(int patch, int point) const;
+  std::string limiting_field(int set, int point) const;
   std::string describe_hottest() const;
   [[noreturn]] void fail_energy(const EnergyError& e);
-  std::string describe_fault(const StepFault& fault) const;
-  std::string describe_point(int patch, int point) const;
+  std::string describe_fault(int set, const Fault& fault) const;
+  std::string describe_point(int set, int point) const;
+  double energy_per_mass(int set, int point) const;
 
   const Scene& scene_;
   IsaLevel level_;
@@ -126,6 +138,8 @@ class Simulation {
   Audit audit_;
   std::unique_ptr<NodeLoads> loads_;
   std::unique_ptr<MpmStep> step_;
+  std::unique_ptr<MeshKernels> mesh_kernels_;
+  std::unique_ptr<MeshStep> mesh_;
   StepClock clock_;
   TimeStepLimit limit_;  ///< of the next step
   bool broken_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // The nodes and elements of one body, as mesh_step.hpp steps them.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -21,10 +22,30 @@ struct MeshStep::Elements {
   AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes;
   std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
   std::size_t node_count = 0;
+  std::vector<std::array<std::int32_t, 2>> surface;
 
   std::size_t corner_count() const { return static_cast<std::size_t>(made_of.mesh.corners()); }
+  /// What elements keep from step to step beside their columns, and its length.
+  template <class Visit>
+  void for_each_record(const Visit& visit) {
+    visit_records(*this, visit);
+  }
+  template <class Visit>
+  void for_each_record(const Visit& visit) const {
+    visit_records(*this, visit);
+  }
   double* node(std::size_t n) { return nodes.data() + kNode * n; }
   double* change(std::size_t n) { return changes.data() + kChange * n; }
+
+ private:
+  template <class Self, class Visit>
+  static void visit_records(Self& self, const Visit& visit) {
+    const std::size_t groups = static_cast<std::size_t>(self.elements.groups()),
+                      modes = self.made_of.mesh.dimension == 3 ? 12 : 2;
+    visit(self.hourglass, groups * modes * kLanes);
+    visit(self.hourglass_energy, groups * kLanes);
+    visit(self.remembered, groups * 2 * kLanes);
+  }
 };
 
 }  // namespace krater

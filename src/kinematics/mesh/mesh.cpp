@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/kinematics/mesh/mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -43,6 +47,14 @@ Mesh block_mesh(int dimension, const Triple& lower, const Triple& upper,
   return mesh;
 }
 
+std::array<int, 3> elements_along(Frame frame, const Triple& lower, const Triple& upper,
+                                  double element) {
+  std::array<int, 3> counts{1, 1, 1};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(frame)); ++a)
+    counts[a] = std::max(1, static_cast<int>(std::lround((upper[a] - lower[a]) / element)));
+  return counts;
+}
+
 NodeCorners node_corners(const Mesh& mesh) {
   NodeCorners out;
   out.first.assign(mesh.nodes.size() + 1, 0);
@@ -53,6 +65,40 @@ NodeCorners node_corners(const Mesh& mesh) {
   for (std::size_t p = 0; p < mesh.elements.size(); ++p)
     out.places[next[static_cast<std::size_t>(mesh.elements[p])]++] = static_cast<std::uint32_t>(p);
   return out;
+}
+
+namespace {
+
+/// Corners of the faces of an element, in order around each.
+std::vector<std::vector<std::size_t>> faces_of(int dimension) {
+  if (dimension == 2) return {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  return {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+}
+
+}  // namespace
+
+std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh) {
+  const auto corners = static_cast<std::size_t>(mesh.corners());
+  std::map<std::vector<std::int32_t>, std::pair<int, std::vector<std::int32_t>>> faces;
+  for (std::size_t e = 0; e < mesh.element_count(); ++e)
+    for (const auto& face : faces_of(mesh.dimension)) {
+      std::vector<std::int32_t> around;
+      for (const std::size_t I : face) around.push_back(mesh.elements[e * corners + I]);
+      std::vector<std::int32_t> key = around;
+      std::sort(key.begin(), key.end());
+      auto& seen = faces[key];
+      ++seen.first;
+      seen.second = around;
+    }
+  std::set<std::array<std::int32_t, 2>> edges;
+  for (const auto& [key, face] : faces) {
+    const auto& [times, around] = face;
+    for (std::size_t k = 0; times == 1 && k < around.size(); ++k) {
+      const std::int32_t a = around[k], b = around[(k + 1) % around.size()];
+      edges.insert({std::min(a, b), std::max(a, b)});
+    }
+  }
+  return {edges.begin(), edges.end()};
 }
 
 namespace {

@@ -153,6 +153,7 @@ void MeshStep::add(ElementBody made_of) {
   body->elements.pad(body->columns.mass);
   sort_by_lanes(volumes, *body);
   place_nodes(volumes, *body);
+  body->surface = surface_edges(m.mesh);
   note_planes(*body);
   for (int first = 0; first < body->elements.groups(); first += kChunkGroups)
     chunks_.push_back(

@@ -45,28 +45,48 @@ ElementScratch MeshStep::scratch() {
 
 void MeshStep::start() {
   find_forces();
-  audit_.kinetic = audit_.initial_kinetic = kinetic();
-  audit_.internal = 0;
-  for (const auto& b : bodies_)
-    for (int i = 0; i < b->elements.count(); ++i)
-      audit_.internal += b->elements.at(b->columns.mass, i) * b->elements.at(b->columns.energy, i);
+  audit_.kinetic = audit_.internal = audit_.unfelt = 0;
+  for (int s = 0; s < set_count(); ++s) {
+    audit_.kinetic += totals(s).kinetic;
+    audit_.internal += internal_energy(s);
+    if (bodies_[static_cast<std::size_t>(s)]->made_of.barotropic)
+      audit_.unfelt += internal_energy(s);
+  }
+  audit_.initial_kinetic = audit_.kinetic;
   audit_.initial_internal = audit_.internal;
+  audit_.unfelt_start = audit_.unfelt;
 }
 
-double MeshStep::kinetic() const {
-  double sum = 0;
-  for (const auto& b : bodies_)
-    for (std::size_t n = 0; n < b->node_count; ++n) {
-      const double* node = b->nodes.data() + kNode * n;
-      double squares = 0;
-      for (int a = 0; a < dim_; ++a) squares += node[4 + a] * node[4 + a];
-      sum += 0.5 * node[3] * squares;
+NodeTotals MeshStep::totals(int s) const {
+  NodeTotals t;
+  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  for (std::size_t n = 0; n < b.node_count; ++n) {
+    const double* node = b.nodes.data() + kNode * n;
+    const double m = node[3];
+    double squares = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      squares += a < static_cast<std::size_t>(dim_) ? node[4 + a] * node[4 + a] : 0;
+      t.momentum[a] += a < static_cast<std::size_t>(dim_) ? m * node[4 + a] : 0;
     }
+    t.mass += m;
+    t.kinetic += 0.5 * m * squares;
+    t.angular_momentum += m * (node[0] * node[5] - node[1] * node[4]);
+  }
+  return t;
+}
+
+double MeshStep::internal_energy(int s) const {
+  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  double sum = 0;
+  for (int i = 0; i < b.elements.count(); ++i)
+    sum += b.elements.at(b.columns.mass, i) * b.elements.at(b.columns.energy, i) +
+           b.hourglass_energy.data()[i];
   return sum;
 }
 
 void MeshStep::combine(const std::vector<ElementResult>& results, bool energies) {
-  if (energies) audit_.internal = hourglass_energy_ = 0;
+  if (energies) audit_.internal = audit_.unfelt = hourglass_energy_ = 0;
+  double law_work = 0;
   for (std::size_t c = 0; c < results.size(); ++c) {
     const ElementResult& r = results[c];
     if (r.fault.kind != FaultKind::none)
@@ -79,7 +99,13 @@ void MeshStep::combine(const std::vector<ElementResult>& results, bool energies)
     audit_.internal += r.internal + r.hourglass;
     hourglass_energy_ += r.hourglass;
     audit_.book_events(r.ledger);
+    if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
+    audit_.unfelt += r.internal + r.hourglass;
+    law_work += r.ledger.barotropic_work + (r.hourglass - r.hourglass_before);
   }
+  if (!energies) return;
+  audit_.book_laws(law_work, 0.5);  // they are half a step ahead of e
+  audit_.find_unfelt();
 }
 
 void MeshStep::find_forces() {
@@ -220,8 +246,49 @@ void MeshStep::move(double dt) {
   });
   limit_ = {};
   combine(results, true);
-  audit_.kinetic = kinetic();
+  audit_.kinetic = 0;
+  for (int b = 0; b < set_count(); ++b) audit_.kinetic += totals(b).kinetic;
   find_forces();
+}
+
+std::vector<double> MeshStep::state(int s) const {
+  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  std::vector<double> out(b.nodes.data(), b.nodes.data() + kNode * b.node_count);
+  b.for_each_record([&out](const AlignedBuffer& from, std::size_t count) {
+    out.insert(out.end(), from.data(), from.data() + count);
+  });
+  return out;
+}
+
+bool MeshStep::set_state(int s, const std::vector<double>& state) {
+  Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  if (state.size() != this->state(s).size()) return false;
+  const double* from = state.data();
+  std::copy_n(from, kNode * b.node_count, b.nodes.data());
+  from += kNode * b.node_count;
+  b.for_each_record([&from](AlignedBuffer& to, std::size_t count) {
+    std::copy_n(from, count, to.data());
+    from += count;
+  });
+  return true;
+}
+
+const std::vector<std::array<std::int32_t, 2>>& MeshStep::surface(int s) const {
+  return bodies_[static_cast<std::size_t>(s)]->surface;
+}
+
+void MeshStep::pad(int s) {
+  Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  b.elements.pad(b.columns.mass);
+}
+
+std::size_t MeshStep::memory() const {
+  std::size_t doubles = 0;
+  for (const auto& b : bodies_)
+    doubles += b->elements.capacity() + b->shares.size() + b->forces.size() + b->hourglass.size() +
+               b->hourglass_energy.size() + b->remembered.size() + b->nodes.size() +
+               b->changes.size() + b->corners.size() / 2;
+  return 8 * doubles;
 }
 
 PointSet MeshStep::set(int s) const {

@@ -132,6 +132,8 @@ Node read_body(const Node& node, Reading& reading) {
   body.velocity = read_motion(block, body.solid.get(), reading);
   if (const Node* rigid = block.find("rigid"))
     block.record("rigid", read_rigid(*rigid, body, reading));
+  if (const Node* kinematics = block.find("kinematics"))
+    block.record("kinematics", read_kinematics(*kinematics, body, reading));
   body.thin_allowed =
       block.choice<bool>("thin", {{"refused", false}, {"allowed", true}}, body.thin_allowed);
   block.record("points", read_points(block.find("points"), block, body.points, reading));

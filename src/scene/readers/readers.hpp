@@ -35,6 +35,10 @@ Node read_bodies(const Node* node, Reading& reading);
 Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
 /// Materials without laws, and rigid bodies without contact; after all blocks.
 void check_rigid(Reading& reading);
+/// `kinematics:` of a body. Returns the resolved key.
+Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading);
+/// What bodies of elements do not go with; after all blocks. Counts their elements.
+void check_meshes(Reading& reading);
 Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies
 Node read_measures(const Node* node, Reading& reading);
 /// `face: z_max`: axis and side (0 lower, 1 upper) of the outward normal; axis -1 after a problem.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "krater/contact/options.hpp"
+#include "krater/geometry/frame.hpp"
 
 namespace krater {
 
@@ -27,12 +28,19 @@ struct Mesh {
 Mesh block_mesh(int dimension, const Triple& lower, const Triple& upper,
                 const std::array<int, 3>& counts);
 
+/// Whole numbers of elements of about `element` [m] along each axis of a block, one at least.
+std::array<int, 3> elements_along(Frame frame, const Triple& lower, const Triple& upper,
+                                  double element);
+
 /// Whose corner a node is, in order of elements: entries first[n] .. first[n + 1) of `places`,
 /// element * corners + corner. Sums over it are the same for any number of threads.
 struct NodeCorners {
   std::vector<std::uint32_t> first, places;
 };
 NodeCorners node_corners(const Mesh& mesh);
+
+/// Edges of the faces that no two elements share, each once.
+std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh);
 
 /// int N_I dV of every corner of every element, V over w = 1 or 2 pi r, by Gauss points: exact for
 /// quadrilaterals and for hexahedra with plane or bilinear faces. They sum to the volume and keep

@@ -12,6 +12,7 @@
 
 #include "krater/core/batch_types.hpp"
 #include "krater/core/isa_level.hpp"
+#include "krater/kinematics/mesh/options.hpp"
 #include "krater/materials/stage.hpp"
 
 namespace krater {
@@ -22,12 +23,6 @@ struct ElementColumns {
   int plastic, failed;
   int local_gradient, local_extra, local_rate, local_shear;
   int stride, local_stride;
-};
-
-/// How the modes that one point does not see are held.
-struct HourglassOptions {
-  enum class Kind { assumed_strain, viscous } kind = Kind::assumed_strain;
-  double viscous = 0.1;  ///< c_h
 };
 
 struct ElementData {
@@ -56,9 +51,9 @@ inline constexpr int kKeptPacks = 20;
 
 /// What a sweep over some groups leaves behind; combined in their order.
 struct ElementResult {
-  double internal = 0, hourglass = 0;  ///< [J]
-  double max_rate = 0;                 ///< 1/dt at CFL 1 [1/s]
-  int limiter = 0, limiting = -1;      ///< 0 wave, 2 dilatation; index of the element
+  double internal = 0, hourglass = 0, hourglass_before = 0;  ///< [J]
+  double max_rate = 0;                                       ///< 1/dt at CFL 1 [1/s]
+  int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the element
   Ledger ledger;
   Fault fault;
 };

@@ -33,6 +33,7 @@ struct ElementBody {
   int stage_count = 0;
   double density = 0, shear_modulus = 0;
   double q_lin = 0, q_quad = 0;
+  bool barotropic = false;  ///< its pressure does not know its energy
   HourglassOptions held;
 };
 
@@ -40,6 +41,13 @@ struct ElementBody {
 /// made.
 void declare_elements(double density, Layout& layout);
 void declare_element_results(Layout& layout);
+
+/// Sums over the nodes of a body.
+struct NodeTotals {
+  double mass = 0, kinetic = 0;
+  Triple momentum{};
+  double angular_momentum = 0;  ///< about the origin, of the first two axes
+};
 
 /// Thrown by move(): element `element` of set `set`.
 struct ElementFault {
@@ -72,6 +80,14 @@ class MeshStep final : public Kinematics {
   PointStore& change(int s) override;
   void find_forces();
 
+  const std::vector<std::array<std::int32_t, 2>>& surface(int s) const;  ///< edges, by nodes
+  NodeTotals totals(int s) const;
+  double internal_energy(int s) const;  ///< hourglass energy included [J]
+  /// Nodes, and what elements hold beside their columns; find_forces() after it was put back.
+  std::vector<double> state(int s) const;
+  bool set_state(int s, const std::vector<double>& state);  ///< false: of another length
+  void pad(int s);             ///< after columns were changed from outside
+  std::size_t memory() const;  ///< of nodes and elements [bytes]
   double hourglass_energy() const {
     return hourglass_energy_;
   }                 ///< part of the internal energy [J]
@@ -99,7 +115,6 @@ class MeshStep final : public Kinematics {
   void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
-  double kinetic() const;
   template <class Work>
   void over_nodes(const Work& work);
   void combine(const std::vector<ElementResult>& results, bool energies);

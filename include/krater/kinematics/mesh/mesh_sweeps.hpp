@@ -279,7 +279,11 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
   const ElementColumns& c = d.columns;
   for (int from = first; from < last; from += kElementGroups) {
     const int to = from + kElementGroups < last ? from + kElementGroups : last;
-    for (int g = from; g < to; ++g) strain_group<Frame, Kind>(d, w, view, dt, g, g - from);
+    for (int g = from; g < to; ++g) {
+      out.hourglass_before += sum(select(first_lanes(d.count - kLanes * g),
+                                         load(d.hourglass_energy + kLanes * g), Pack(0.0)));
+      strain_group<Frame, Kind>(d, w, view, dt, g, g - from);
+    }
     const BatchData batch{.state = d.elements + from * c.stride,
                           .state_stride = c.stride,
                           .local = w.local,

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <limits>
+
+#include "krater/kinematics/mesh/mesh.hpp"
+#include "scene/readers/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+using Kind = HourglassOptions::Kind;
+
+Node read_hourglass(const Node* node, Block& mesh, HourglassOptions& out, Reading& reading) {
+  if (node == nullptr || node->kind == Node::Kind::scalar) {
+    out.kind = mesh.choice<Kind>(
+        "hourglass", {{"assumed_strain", Kind::assumed_strain}, {"viscous", Kind::viscous}},
+        Kind::assumed_strain);
+    return string_node(out.kind == Kind::viscous ? "viscous" : "assumed_strain");
+  }
+  Block block{node, node->path, *node, reading.problems};
+  const Node* viscous = block.require("viscous", "its coefficient, for example 0.1");
+  if (viscous != nullptr) {
+    const auto value = read_number(*viscous, "1", Range::positive, reading.problems);
+    if (value) out = {Kind::viscous, *value};
+    block.record("viscous", *viscous);
+  }
+  return block.finish();
+}
+
+}  // namespace
+
+Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
+  if (node.kind == Node::Kind::scalar) {
+    if (node.text == "mpm") return string_node("mpm");
+    if (node.text != "lagrangian_mesh") {
+      report_unknown(node, "kinematics", node.text, {"mpm", "lagrangian_mesh"}, reading.problems);
+      return node;
+    }
+    body.mesh = MeshOptions{.element = reading.scene.grid.cell, .hourglass = {}};
+    return string_node("lagrangian_mesh");
+  }
+  Block block{&node, node.path, node, reading.problems};
+  body.mesh = MeshOptions{};
+  if (const Node* inner = block.require("lagrangian_mesh", "or kinematics: mpm")) {
+    Block mesh{inner, inner->path, *inner, reading.problems};
+    body.mesh->element = mesh.number(
+        {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
+    mesh.record("hourglass",
+                read_hourglass(inner->find("hourglass"), mesh, body.mesh->hourglass, reading));
+    block.record("lagrangian_mesh", mesh.finish());
+  }
+  return block.finish();
+}
+
+namespace {
+
+/// Does the body fill the box around it?
+bool is_block(const BodyOptions& body, const Scene& scene, const Box& box) {
+  const double content = body.solid->part(scene.frame, {scene.grid.min, scene.grid.max}).section;
+  double whole = 1;
+  for (int a = 0; a < dimension(scene.frame); ++a) whole *= box.length(a);
+  return std::abs(content / whole - 1) < 1e-9;
+}
+
+void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const auto fail = [&](const Node& at, const std::string& what) {
+    reading.problems.add(at.file, at.line, at.path, what);
+  };
+  const std::string only = "a body of kinematics lagrangian_mesh ";
+  if (const Node* points = node.find("points"))
+    fail(*points, only + "has elements, no points: leave this key out");
+  if (body.rigid()) fail(*node.find("rigid"), only + "cannot be rigid: leave one of the two out");
+  const Box box = intersection(body.solid->extent(scene.frame), {scene.grid.min, scene.grid.max},
+                               dimension(scene.frame));
+  if (!is_block(body, scene, box))
+    return fail(*node.find("shape"),
+                only +
+                    "is meshed where it is a block along the grid's axes: a box, or in the "
+                    "axisymmetric frame a full cylinder about the axis; use kinematics: mpm for "
+                    "other shapes");
+  body.point_estimate = 1;
+  const std::array<int, 3> counts =
+      elements_along(scene.frame, box.min, box.max, body.mesh->element);
+  for (int a = 0; a < dimension(scene.frame); ++a)
+    body.point_estimate *= counts[static_cast<std::size_t>(a)];
+}
+
+/// What the whole scene must be.
+void check_alone(const Node& place, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const auto fail = [&](const std::string& what) {
+    reading.problems.add(place.file, place.line, place.path, "kinematics lagrangian_mesh " + what);
+  };
+  if (scene.bodies.size() > 1)
+    fail(
+        "does not meet other bodies yet: a scene with it has one body, against the sides of the "
+        "domain; use kinematics: mpm where bodies meet");
+  if (scene.method.reference != Reference::current)
+    fail("knows the current configuration only: leave out method.reference");
+  if (scene.body_force || scene.loads.any())
+    fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
+  for (const auto& axis : scene.grid.boundary)
+    for (const Boundary& side : axis)
+      if (side.drives())
+        fail("knows no side that drives: give the body a velocity against a wall instead");
+}
+
+}  // namespace
+
+void check_meshes(Reading& reading) {
+  const Node& bodies = *reading.root.find("bodies");
+  bool told = false;
+  for (BodyOptions& body : reading.scene.bodies) {
+    if (!body.mesh) continue;
+    const Node& node = *bodies.find(body.name);
+    check_mesh(body, node, reading);
+    if (!told) check_alone(*node.find("kinematics"), reading);
+    told = true;
+  }
+}
+
+}  // namespace krater::scene

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies of elements in a simulation.
+#include <cmath>
+
+#include "krater/core/errors.hpp"
+#include "krater/simulation/material_plan.hpp"
+#include "krater/simulation/simulation.hpp"
+
+namespace krater {
+
+namespace {
+
+MeshFrame mesh_frame(Frame frame) {
+  switch (frame) {
+    case Frame::axisymmetric:
+      return MeshFrame::axisymmetric;
+    case Frame::plane_strain:
+      return MeshFrame::plane;
+    case Frame::cartesian_3d:
+      break;
+  }
+  return MeshFrame::space;
+}
+
+/// The block that the body fills inside the domain.
+Mesh mesh_of(const Scene& scene, const BodyOptions& body) {
+  const int dim = dimension(scene.frame);
+  const Box box = intersection(body.solid->extent(scene.frame), domain_box(scene), dim);
+  return block_mesh(dim, box.min, box.max,
+                    elements_along(scene.frame, box.min, box.max, body.mesh->element));
+}
+
+std::vector<Triple> velocities_of(const BodyOptions& body, const Mesh& mesh) {
+  std::vector<Triple> out;
+  for (const Triple& x : mesh.nodes) {
+    out.push_back(body.velocity ? (*body.velocity)(x, x, 0) : Triple{});
+    if (!std::isfinite(out.back()[0] + out.back()[1] + out.back()[2]))
+      throw InputError(body.where + ": its velocity is not a number at a node");
+  }
+  return out;
+}
+
+}  // namespace
+
+void Simulation::place_meshes() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = *bodies_[b];
+    if (!body.options().mesh) continue;
+    if (!mesh_) {
+      mesh_kernels_.reset(mesh_kernel_factory(level_).make(mesh_frame(scene_.frame)));
+      MeshStep::Domain domain{scene_.frame, scene_.grid.boundary, {}};
+      for (std::size_t a = 0; a < 3; ++a)
+        domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
+      mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);
+    }
+    const MaterialPlan plan = material_plan(body.material());
+    ElementBody made{.body = static_cast<int>(b),
+                     .mesh = mesh_of(scene_, body.options()),
+                     .velocities = {},
+                     .layout = &body.layout(),
+                     .stages = kernel_data_[b].stages,
+                     .stage_count = kernel_data_[b].stage_count,
+                     .density = body.material().density,
+                     .shear_modulus = body.material().shear_modulus,
+                     .q_lin = plan.q_lin,
+                     .q_quad = plan.q_quad,
+                     .barotropic = kernel_data_[b].heat_floor == nullptr,
+                     .held = body.options().mesh->hourglass};
+    made.velocities = velocities_of(body.options(), made.mesh);
+    mesh_->add(std::move(made));
+  }
+  if (mesh_) mesh_->start();
+}
+
+Totals Simulation::totals_of_mesh(int s) const {
+  const NodeTotals nodes = mesh_->totals(s);
+  return {1.0 * set(s).count(),      nodes.mass,     nodes.kinetic,
+          mesh_->internal_energy(s), nodes.momentum, nodes.angular_momentum};
+}
+
+void Simulation::restore_mesh(int b, const Checkpoint& checkpoint) {
+  const Body& body = *bodies_[static_cast<std::size_t>(b)];
+  const CheckpointBlob* points = checkpoint.find("bodies/" + body.name() + "/points");
+  const CheckpointBlob* mesh = checkpoint.find("bodies/" + body.name() + "/mesh");
+  const std::vector<int> sets = sets_of(b);
+  std::size_t values = 0;
+  for (const int s : sets)
+    values += static_cast<std::size_t>(set(s).count()) *
+              static_cast<std::size_t>(body.layout().stride() / kLanes);
+  if (points == nullptr || mesh == nullptr || points->doubles.size() != values)
+    throw InputError("checkpoint: body '" + body.name() + "' has another mesh there");
+  std::size_t at = 0;
+  for (const Column& c : body.layout().columns())
+    for (int k = 0; k < c.components; ++k)
+      for (const int s : sets)
+        for (int i = 0; i < set(s).count(); ++i)
+          set_value(s, i, c.offset / kLanes + k, points->doubles[at++]);
+  for (const int s : sets) {
+    if (!mesh_->set_state(s, mesh->doubles))
+      throw InputError("checkpoint: body '" + body.name() + "' has another mesh there");
+    mesh_->pad(s);
+  }
+  mesh_->find_forces();
+}
+
+}  // namespace krater
