@@ -11,21 +11,22 @@ namespace {
 
 using Kind = HourglassOptions::Kind;
 
-Node read_hourglass(const Node* node, Block& mesh, HourglassOptions& out, Reading& reading) {
+void read_hourglass(Block& mesh, HourglassOptions& out, Reading& reading) {
+  const Node* node = mesh.find("hourglass");
   if (node == nullptr || node->kind == Node::Kind::scalar) {
     out.kind = mesh.choice<Kind>(
         "hourglass", {{"assumed_strain", Kind::assumed_strain}, {"viscous", Kind::viscous}},
         Kind::assumed_strain);
-    return string_node(out.kind == Kind::viscous ? "viscous" : "assumed_strain");
+    return;
   }
   Block block{node, node->path, *node, reading.problems};
-  const Node* viscous = block.require("viscous", "its coefficient, for example 0.1");
-  if (viscous != nullptr) {
-    const auto value = read_number(*viscous, "1", Range::positive, reading.problems);
-    if (value) out = {Kind::viscous, *value};
-    block.record("viscous", *viscous);
-  }
-  return block.finish();
+  const auto value = block.optional_number(
+      {"viscous", "1", Range::positive, 0.1, "coefficient of the viscous hourglass"});
+  if (value)
+    out = {Kind::viscous, *value};
+  else
+    block.fail(*node, "expected assumed_strain, viscous or {viscous: 0.1}");
+  mesh.record("hourglass", block.finish());
 }
 
 }  // namespace
@@ -46,8 +47,7 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     Block mesh{inner, inner->path, *inner, reading.problems};
     body.mesh->element = mesh.number(
         {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
-    mesh.record("hourglass",
-                read_hourglass(inner->find("hourglass"), mesh, body.mesh->hourglass, reading));
+    read_hourglass(mesh, body.mesh->hourglass, reading);
     block.record("lagrangian_mesh", mesh.finish());
   }
   return block.finish();
