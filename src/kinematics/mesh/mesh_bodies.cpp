@@ -129,10 +129,15 @@ void declare_element_results(Layout& layout) {
 
 MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit)
     : domain_{domain}, dim_{dimension(domain.frame)}, kernels_{kernels}, audit_{audit} {
-  for (const auto& axis : domain.sides)
-    for (const Boundary& side : axis)
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
+    for (std::size_t s = 0; s < 2; ++s) {
+      const Boundary& side = domain.sides[a][s];
       if (side.drives())
         throw std::invalid_argument("a side of the domain that drives a body of elements");
+      const bool sticky = side.kind == BoundaryKind::sticky;
+      if (sticky || side.kind == BoundaryKind::wall)
+        pushing_.push_back({a, s == 0 ? 1.0 : -1.0, domain.planes[a][s], side.friction, sticky});
+    }
 }
 
 MeshStep::~MeshStep() = default;

@@ -180,42 +180,44 @@ void MeshStep::hold_planes(Elements& b, std::size_t first, std::size_t last, Wal
     }
 }
 
-/// The push of one side on a node whose velocity is v + change; returns what it was.
-Triple MeshStep::push_of(const Boundary& wall, std::size_t axis, std::size_t side, double dt,
-                         const double* node, const double* change) const {
+/// The push of a side on a node whose velocity is v + change, by `missing` along its normal.
+Triple MeshStep::push_of(const PushingSide& side, double missing, const double* node,
+                         const double* change) const {
   const auto dim = static_cast<std::size_t>(dim_);
   Triple push{};
-  const bool sticky = wall.kind == BoundaryKind::sticky;
-  if (wall.kind != BoundaryKind::wall && !sticky) return push;
-  const double inwards = side == 0 ? 1 : -1;
-  const double touching = (domain_.planes[axis][side] - node[axis]) / dt;
-  const double missing = inwards * (touching - node[4 + axis] - change[axis]);
-  if (!(missing > 0)) return push;
-  push[axis] = inwards * missing;
+  push[side.axis] = side.inwards * missing;
   double squares = 0;
   for (std::size_t t = 0; t < dim; ++t)
-    if (t != axis) squares += (node[4 + t] + change[t]) * (node[4 + t] + change[t]);
+    if (t != side.axis) squares += (node[4 + t] + change[t]) * (node[4 + t] + change[t]);
   const double slip = std::sqrt(squares);
-  const double share = sticky ? 1 : slip > 0 ? std::min(1.0, wall.friction * missing / slip) : 0;
+  const double share = side.sticky ? 1
+                       : slip > 0  ? std::min(1.0, side.friction * missing / slip)
+                                   : 0;
   for (std::size_t t = 0; t < dim; ++t)
-    if (t != axis) push[t] = -share * (node[4 + t] + change[t]);
+    if (t != side.axis) push[t] = -share * (node[4 + t] + change[t]);
   return push;
 }
 
 void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last, double dt,
                                WallSums& sums) const {
+  if (pushing_.empty()) return;
   const auto dim = static_cast<std::size_t>(dim_);
   for (std::size_t n = first; n < last; ++n) {
     double *node = b.node(n), *change = b.change(n);
     Triple all{};
-    for (std::size_t a = 0; a < dim; ++a)
-      for (std::size_t side = 0; side < 2; ++side) {
-        const Triple push = push_of(domain_.sides[a][side], a, side, dt, node, change);
-        for (std::size_t t = 0; t < dim; ++t) {
-          change[t] += push[t];
-          all[t] += push[t];
-        }
+    bool pushed = false;
+    for (const PushingSide& side : pushing_) {
+      const double touching = (side.plane - node[side.axis]) / dt;
+      const double missing = side.inwards * (touching - node[4 + side.axis] - change[side.axis]);
+      if (!(missing > 0)) continue;
+      const Triple push = push_of(side, missing, node, change);
+      pushed = true;
+      for (std::size_t t = 0; t < dim; ++t) {
+        change[t] += push[t];
+        all[t] += push[t];
       }
+    }
+    if (!pushed) continue;
     for (std::size_t t = 0; t < dim; ++t) {
       node[7] -= all[t] * (node[4 + t] + 0.5 * change[t]);
       sums.impulse[t] += node[3] * all[t];

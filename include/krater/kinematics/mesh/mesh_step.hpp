@@ -103,6 +103,11 @@ class MeshStep final : public Kinematics {
     double heat = 0;
     std::array<double, 3> impulse{};
   };
+  struct PushingSide {  ///< a wall, or a side that holds what touches it
+    std::size_t axis;
+    double inwards, plane, friction;
+    bool sticky;
+  };
   struct Chunk {
     std::size_t body;
     int first, last;
@@ -110,8 +115,8 @@ class MeshStep final : public Kinematics {
   ElementScratch scratch();
   ElementData data(Elements& body);
   void hold_planes(Elements& body, std::size_t first, std::size_t last, WallSums& sums) const;
-  Triple push_of(const Boundary& wall, std::size_t axis, std::size_t side, double dt,
-                 const double* node, const double* change) const;
+  Triple push_of(const PushingSide& side, double missing, const double* node,
+                 const double* change) const;
   void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
@@ -121,6 +126,7 @@ class MeshStep final : public Kinematics {
 
   Domain domain_;
   int dim_;
+  std::vector<PushingSide> pushing_;
   const MeshKernels& kernels_;
   Audit& audit_;
   std::vector<std::unique_ptr<Elements>> bodies_;
