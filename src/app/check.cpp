@@ -266,12 +266,12 @@ void print_check(const RunOptions& options) {
   const Sample sample = sample_of(scene, options.output.empty() ? cost.points : 0);
   const Simulation sim{sample.scene};
   // What a run refuses before its first step.
-  const Measurements measurements{sim};
+  Measurements measurements{sim};
   measurements.check(sim);
   std::vector<Quantity> columns = history_row(sim);
   for (const Quantity& title : measurements.titles(scene)) columns.push_back(title);
   Outcomes{sim, columns};
-  Gauges{sim};
+  Gauges{sim, measurements};
   if (sample.coarser > 1) {
     require_steps(scene.time, sim.stable_step() / sample.coarser);
     for (std::size_t b = 0; b < sim.bodies().size(); ++b)

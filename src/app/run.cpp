@@ -42,7 +42,7 @@ class Runner {
         sim_{scene_},
         measurements_{sim_},
         outcomes_{sim_, history_titles()},
-        gauges_{sim_},
+        gauges_{sim_, measurements_},
         results_{options.output.empty() ? default_output(options.scene) : options.output,
                  !options.restart.empty()} {}
 
@@ -357,6 +357,7 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   gauges_.write(results_);
   results_.flush();
   for (const std::string& line : outcomes_.sentences()) tell(line);
+  for (const std::string& line : gauges_.sentences()) tell(line);
   if (outcomes_.answered())
     tell(fmt::format("stopped at {:.4g} s of {:.4g} s: {}", sim_.time(), scene_.time.end,
                      outcomes_.answer()));

@@ -135,7 +135,8 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
       const auto node = [&](const std::array<int, 3>& at) {
         return grid.find_node(at, block.field);
       };
-      Column column{node(ghost), node(index), node(inner), !rigid, {}, 0, {}, {}, {}, {}};
+      Column column{node(ghost), node(index), node(inner), block.field, !rigid, {},
+                    0,           {},          {},          {},          {}};
       if (column.ghost == nullptr || column.inner == nullptr) continue;
       for (int a = 0, side = 0; a < dimension; ++a)
         for (const int step : {-1, 1}) {
@@ -208,6 +209,7 @@ bool BoundarySet::drives() const {
 BoundaryWork BoundarySet::constrain() {
   BoundaryWork sum;
   heat_.clear();
+  given_.clear();
   for (Held& h : held_) {
     std::copy_n(h.node, kNodeDoubles, h.before.begin());
     std::copy_n(h.node, 3, h.last.begin());
@@ -268,6 +270,7 @@ void BoundarySet::keep_folded(const Column& c) {
 // A side works by its own velocity on what it pushes.
 void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& sum) {
   double work = 0;
+  Triple impulse{};
   for (const std::size_t i : c.held) {
     Held& h = held_[i];
     const double m = h.before[moved::mass];
@@ -276,12 +279,14 @@ void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& s
       change[a] = h.node[moved::velocity + a] - h.last[a];
       h.last[a] = h.node[moved::velocity + a];
       work += m * change[a] * plane.condition->velocity[a];
+      impulse[a] += m * change[a];
     }
     heat_.add(h.node, m, change);
   }
   heat_.close(work);
   sum.work += work;
   sum.columns_in_contact += 1;
+  if (notes_) add_impulse(given_, c.field, Partner::side(plane.axis, plane.side), impulse);
 }
 
 double BoundarySet::heat() {

@@ -73,7 +73,7 @@ void ContactSet::relink(const BlockGrid& grid) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
-      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}, {}, {}});
+      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}, {}, {}, {}});
     }
     n = end;
   }
@@ -154,16 +154,16 @@ void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratc
     }
 }
 
-void ContactSet::exchange(double* a, double* b, const Contact& contact, double mu,
-                          ContactWork& sum) const {
+Triple ContactSet::exchange(double* a, double* b, const Contact& contact, double mu,
+                            ContactWork& sum) const {
   const double reduced = a[moved::mass] * b[moved::mass] / (a[moved::mass] + b[moved::mass]);
-  std::array<double, 3> apart{}, impulse{};
+  Triple apart{}, impulse{};
   double closing = 0;
   for (unsigned i = 0; i < 3; ++i) {
     apart[i] = a[i] - b[i];
     closing += apart[i] * contact.normal[i];
   }
-  if (!(closing > 0)) return;
+  if (!(closing > 0)) return {};
   double slip = 0;
   for (unsigned i = 0; i < 3; ++i) {
     apart[i] -= closing * contact.normal[i];
@@ -175,11 +175,11 @@ void ContactSet::exchange(double* a, double* b, const Contact& contact, double m
     impulse[i] = -reduced * (closing * contact.normal[i] + loss * apart[i]);
   sum.change -= 0.5 * (a[moved::mass] * square(a) + b[moved::mass] * square(b));
   push(a, impulse);
-  for (double& J : impulse) J = -J;
-  push(b, impulse);
+  push(b, {-impulse[0], -impulse[1], -impulse[2]});
   sum.change += 0.5 * (a[moved::mass] * square(a) + b[moved::mass] * square(b));
   sum.friction -= reduced * slip * slip * loss * (1 - 0.5 * loss);
   sum.nodes += 1;
+  return impulse;
 }
 
 /// A plane that mirrors has taken the odd components of momenta and forces from its nodes; an
@@ -222,6 +222,7 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
   group.shares.clear();
   group.heat.clear();
   group.rigid_pushes.clear();
+  group.given.clear();
   bool filled = false;
   const auto block = [&](int f) -> const NodeBlock& {
     return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
@@ -289,26 +290,40 @@ double ContactSet::heat() {
   return sum;
 }
 
+void ContactSet::give(Impulses& impulses) const {
+  for (const Group& group : groups_) impulses.add(group.given);
+}
+
 ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,
                                        const RigidBodies& rigid) const {
   ContactWork sum;
   const auto block = [&](int f) -> NodeBlock& {
     return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
-  const auto touch = [&](const Contact& c) {
+  const auto touch = [&](const Contact& c) {  // returns the impulse on a, or on what is not rigid
     const bool a_is_rigid = rigid.find(body_of(block(c.a).field)) != nullptr;
     if (a_is_rigid || rigid.find(body_of(block(c.b).field))) {
       const Strike strike = strike_of(grid, group, c, a_is_rigid);
       return exchange(strike, twists_[static_cast<std::size_t>(strike.body)], group, sum);
     }
-    exchange(block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
-             options_.friction_of(body_of(block(c.a).field), body_of(block(c.b).field)), sum);
+    return exchange(
+        block(c.a).nodes + kNodeDoubles * c.node, block(c.b).nodes + kNodeDoubles * c.node, c,
+        options_.friction_of(body_of(block(c.a).field), body_of(block(c.b).field)), sum);
+  };
+  const auto noted = [&](const Contact& c) {
+    const FieldId a = block(c.a).field, b = block(c.b).field;
+    const bool a_is_rigid = rigid.find(body_of(a)) != nullptr;
+    add_impulse(group.given, a_is_rigid ? b : a, {Partner::Kind::body, body_of(a_is_rigid ? a : b)},
+                touch(c));
   };
   for (std::size_t first = 0, end = 0; first < group.contacts.size(); first = end) {
     while (end < group.contacts.size() && group.contacts[end].node == group.contacts[first].node)
       ++end;
     const double before = sum.nodes;
-    exchange_node(grid, group, first, end, touch);
+    if (notes_)
+      exchange_node(grid, group, first, end, noted);
+    else
+      exchange_node(grid, group, first, end, touch);
     if (sum.nodes == before) continue;
     for (std::size_t c = first; c < end; ++c)
       for (const int f : {group.contacts[c].a, group.contacts[c].b})

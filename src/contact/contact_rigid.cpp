@@ -80,10 +80,10 @@ void ContactSet::probe(const Strike& strike, const RigidTwist& twist, RigidShare
   share.stiffness += mass * A.transpose() * P * A;
 }
 
-void ContactSet::exchange(const Strike& strike, const RigidTwist& twist, Group& group,
-                          ContactWork& sum) const {
+Triple ContactSet::exchange(const Strike& strike, const RigidTwist& twist, Group& group,
+                            ContactWork& sum) const {
   const Meeting m = meet(strike.node, strike.normal, strike.place, strike.friction, twist);
-  if (!(m.closing > 0)) return;
+  if (!(m.closing > 0)) return {};
   double* node = strike.node;
   const double mass = node[moved::mass];
   Eigen::Map<Vector3d> v{node}, dv{node + moved::change};
@@ -100,6 +100,7 @@ void ContactSet::exchange(const Strike& strike, const RigidTwist& twist, Group& 
   group.rigid_pushes.push_back({group.heat.count(), strike.body,
                                 Vector3d{strike.place[0], strike.place[1], strike.place[2]},
                                 -reaction});
+  return {-reaction[0], -reaction[1], -reaction[2]};
 }
 
 /// Velocities that the nodes will meet: those of driven bodies, and those that free ones will have
@@ -157,6 +158,9 @@ void ContactSet::hand_over(RigidBodies& rigid, ContactWork& sum) {
     sum.change += body.take(all);
     if (!body.options().free) sum.driven += all.work;
     const RigidTwist after = body.twist();
+    const Vector3d others = body.mass() * (after.velocity - before.velocity) - all.impulse;
+    Triple& book = body.options().free ? sum.held_impulse : sum.driven_impulse;
+    for (int a = 0; a < 3; ++a) book[static_cast<unsigned>(a)] += others[a];
     for (Group& group : groups_)
       for (const RigidPush& push : group.rigid_pushes)
         if (push.body == body.options().body)

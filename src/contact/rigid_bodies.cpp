@@ -51,6 +51,14 @@ double RigidBodies::kinetic() const {
   return sum;
 }
 
+Triple RigidBodies::momentum() const {
+  Triple sum{};
+  for (const RigidBody& body : bodies_)
+    for (int a = 0; a < 3; ++a)
+      sum[static_cast<unsigned>(a)] += body.mass() * body.twist().velocity[a];
+  return sum;
+}
+
 double RigidBodies::begin(double dt) {
   rewind();
   const double before = kinetic();

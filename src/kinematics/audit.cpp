@@ -49,7 +49,8 @@ void Audit::book_removed(const Removed& gone) {
   deepest_reflection = std::max(deepest_reflection, gone.deepest);
   kinetic += gone.side_work;
   wall_work += gone.side_work;
-  for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += gone.side_impulse[a];
+  for (const std::array<double, 3>& impulse : gone.side_impulse)
+    for (std::size_t a = 0; a < 3; ++a) wall_impulse[a] += impulse[a];
 }
 
 }  // namespace krater

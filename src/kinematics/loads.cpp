@@ -16,15 +16,18 @@ Eigen::Vector3d vector(const Triple& x) { return {x[0], x[1], x[2]}; }
 
 }  // namespace
 
-void accelerate(PointStore& points, const PointColumns& c, int reference, int dimension,
-                const Acceleration& load, double time) {
+Triple accelerate(PointStore& points, const PointColumns& c, int reference, int dimension,
+                  const Acceleration& load, double time) {
+  Triple force{};
   for (int i = 0; i < points.count(); ++i) {
     const Triple b = load(vector_at(points, c.position, dimension, i),
                           vector_at(points, reference, dimension, i), time);
     for (int a = 0; a < dimension; ++a)
       points.at(c.body_acceleration + kLanes * a, i) = b[static_cast<std::size_t>(a)];
+    for (std::size_t a = 0; a < 3; ++a) force[a] += points.at(c.mass, i) * b[a];
   }
   points.pad(c.mass);
+  return force;
 }
 
 void load_rigid(RigidBody& body, BlockGrid& grid, const PointColumns& c, const Acceleration& load,

@@ -2,7 +2,6 @@
 #include "krater/measure/gauges.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,19 +15,9 @@ namespace krater {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view kRate = "_rate";
 
 const Body& body_of(const Simulation& sim, const GaugeOptions& gauge) {
   return *sim.bodies()[static_cast<std::size_t>(gauge.body)];
-}
-
-/// Component of a symmetric tensor by its name in the frame; -1: none.
-int tensor_component(Frame frame, std::string_view name) {
-  constexpr std::array<std::string_view, 6> space{"xx", "yy", "zz", "yz", "xz", "xy"},
-      round{"rr", "tt", "zz", "tz", "rz", "rt"};
-  const auto& names = frame == Frame::axisymmetric ? round : space;
-  const auto at = std::find(names.begin(), names.end(), name);
-  return at == names.end() ? -1 : static_cast<int>(at - names.begin());
 }
 
 template <class Call>
@@ -58,50 +47,6 @@ double hat(const Simulation& sim, int x, int s, int i, const Triple& at) {
 
 }  // namespace
 
-Gauges::Source Gauges::find_source(const Simulation& sim, const GaugeOptions& gauge,
-                                   std::string name) const {
-  const Body& body = body_of(sim, gauge);
-  Source out;
-  out.rate = name.ends_with(kRate);
-  if (out.rate) name.resize(name.size() - kRate.size());
-  std::string known = "speed, von_mises";
-  for (const Column& c : body.layout().columns()) {
-    const FieldInfo& field = *c.field;
-    const bool vector = field.components == kPerAxis;
-    for (int a = 0; a < c.components && (vector || c.components == 1); ++a) {
-      const std::string axis = vector ? "_" + std::string{axis_name(scene_.frame, a)} : "";
-      known += ", " + (field.name + axis);
-      if (name == field.name + axis) {
-        out.slot = c.offset / kLanes + a;
-        out.unit = field.unit;
-        return out;
-      }
-    }
-  }
-  const int s = body.slot(field::DeviatoricStress::info);
-  out.unit = name == "speed" ? "m/s" : "Pa";
-  if (name == "speed") {
-    out.kind = Source::Kind::speed;
-    out.slot = body.slot(field::Velocity::info);
-    return out;
-  }
-  if (s >= 0 && name == "von_mises") {
-    out.kind = Source::Kind::von_mises;
-    out.slot = s;
-    return out;
-  }
-  const int k = name.starts_with("stress_") ? tensor_component(scene_.frame, name.substr(7)) : -1;
-  if (s < 0 || k < 0)
-    throw InputError(fmt::format(
-        "{}.fields: the points of {} carry no '{}' (known: {}, stress_{}, "
-        "..., and each with _rate)",
-        gauge.where, body.name(), name, known, scene_.frame == Frame::axisymmetric ? "rr" : "xx"));
-  out.kind = Source::Kind::stress;
-  out.slot = s + k;
-  if (k < 3) out.pressure = body.slot(field::Pressure::info);
-  return out;
-}
-
 double Gauges::find_id(const Simulation& sim, const GaugeOptions& gauge, std::size_t place) const {
   const Body& body = body_of(sim, gauge);
   const int x = body.slot(field::Position::info), id = body.slot(field::Id::info);
@@ -119,44 +64,39 @@ double Gauges::find_id(const Simulation& sim, const GaugeOptions& gauge, std::si
   return found;
 }
 
-Gauges::Gauges(const Simulation& sim) : scene_{sim.scene()} {
+Gauges::Gauges(const Simulation& sim, Measurements& measurements)
+    : scene_{sim.scene()}, measurements_{measurements} {
   for (std::size_t g = 0; g < scene_.gauges.size(); ++g) {
     const GaugeOptions& gauge = scene_.gauges[g];
     Record& record = records_.emplace_back();
-    for (const std::string& name : gauge.fields)
-      record.sources.push_back(find_source(sim, gauge, name));
+    for (std::size_t f = 0; f < gauge.fields.size(); ++f)
+      record.fields.push_back(gauge.body < 0
+                                  ? measure_field(scene_, gauge.measures[f], gauge.fields[f])
+                                  : find_gauge_field(sim, gauge, gauge.fields[f]));
     for (std::size_t k = 0; k < gauge.at.size() && !gauge.fixed; ++k)
       record.ids.push_back(find_id(sim, gauge, k));
-    record.gone.assign(gauge.at.size(), -1);
-    record.values.resize(gauge.at.size() * gauge.fields.size());
+    const std::size_t places = std::max<std::size_t>(gauge.at.size(), 1);
+    record.gone.assign(places, -1);
+    record.values.resize(places * gauge.fields.size());
     sample(sim, g);
   }
 }
 
-void Gauges::sample(const Simulation& sim, std::size_t g) {
+void Gauges::sample_measures(const Simulation& sim, std::size_t g) {
+  Record& record = records_[g];
+  const std::vector<double> now = measurements_.now(sim, scene_.gauges[g].measures);
+  for (std::size_t f = 0; f < now.size(); ++f) record.values[f].push_back(now[f]);
+  const bool any = std::any_of(now.begin(), now.end(), [](double x) { return !std::isnan(x); });
+  if (!any && record.gone[0] < 0) record.gone[0] = sim.time();
+}
+
+void Gauges::sample_points(const Simulation& sim, std::size_t g) {
   const GaugeOptions& gauge = scene_.gauges[g];
   Record& record = records_[g];
   const Body& body = body_of(sim, gauge);
   const int x = body.slot(field::Position::info), m = body.slot(field::Mass::info),
             id = body.slot(field::Id::info);
-  const auto value = [&](const Source& source, int s, int i) {
-    const auto at = [&](int k) { return sim.value(s, i, source.slot + k); };
-    double square = 0;
-    switch (source.kind) {
-      case Source::Kind::scalar:
-        return at(0);
-      case Source::Kind::stress:
-        return at(0) - (source.pressure < 0 ? 0 : sim.value(s, i, source.pressure));
-      case Source::Kind::speed:
-        for (int a = 0; a < sim.geometry().dimension; ++a) square += at(a) * at(a);
-        return std::sqrt(square);
-      case Source::Kind::von_mises:
-        for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * at(k) * at(k);
-        return std::sqrt(1.5 * square);
-    }
-    return kNothing;
-  };
-  const std::size_t fields = record.sources.size(), places = gauge.at.size();
+  const std::size_t fields = record.fields.size(), places = gauge.at.size();
   std::vector<double> sum(places * fields, 0.0), weight(places, 0.0);
   for_points(sim, gauge, [&](int s, int i) {
     for (std::size_t k = 0; k < places; ++k) {
@@ -166,11 +106,9 @@ void Gauges::sample(const Simulation& sim, std::size_t g) {
       if (!(w > 0)) continue;
       weight[k] += w;
       for (std::size_t f = 0; f < fields; ++f)
-        sum[k * fields + f] += w * value(record.sources[f], s, i);
+        sum[k * fields + f] += w * value_at(sim, record.fields[f], s, i);
     }
   });
-  record.time.push_back(sim.time());
-  record.next = (std::floor(sim.time() / gauge.every * (1 + 1e-12)) + 1) * gauge.every;
   for (std::size_t k = 0; k < places; ++k) {
     if (!(weight[k] > 0) && record.gone[k] < 0) record.gone[k] = sim.time();
     for (std::size_t f = 0; f < fields; ++f)
@@ -179,15 +117,30 @@ void Gauges::sample(const Simulation& sim, std::size_t g) {
   }
 }
 
+void Gauges::sample(const Simulation& sim, std::size_t g) {
+  const GaugeOptions& gauge = scene_.gauges[g];
+  Record& record = records_[g];
+  record.time.push_back(sim.time());
+  record.next = (std::floor(sim.time() / gauge.every * (1 + 1e-12)) + 1) * gauge.every;
+  if (gauge.body < 0)
+    sample_measures(sim, g);
+  else
+    sample_points(sim, g);
+}
+
 void Gauges::look(const Simulation& sim) {
   for (std::size_t g = 0; g < records_.size(); ++g)
     if (sim.time() >= records_[g].next) sample(sim, g);
 }
 
+const std::string& Gauges::body_name(const GaugeOptions& gauge) const {
+  return scene_.bodies[static_cast<std::size_t>(gauge.body)].name;
+}
+
 std::string Gauges::column_name(std::size_t g, std::size_t column) const {
   const GaugeOptions& gauge = scene_.gauges[g];
   const std::string& field = gauge.fields[column % gauge.fields.size()];
-  return gauge.at.size() == 1 ? field : fmt::format("{}_{}", field, column / gauge.fields.size());
+  return gauge.at.size() <= 1 ? field : fmt::format("{}_{}", field, column / gauge.fields.size());
 }
 
 /// All columns; with a filter at its own times, and filtered.
@@ -200,25 +153,39 @@ std::vector<TableColumn> Gauges::table(std::size_t g) const {
   std::vector<TableColumn> out{{"time", "s", "time", record.time}};
   if (filters) out[0].values = resampled(record.time, record.time, gauge.every);
   for (std::size_t c = 0; c < record.values.size(); ++c) {
-    const Source& source = record.sources[c % record.sources.size()];
-    std::vector<double> values = record.values[c];
-    for (std::size_t i = values.size(); source.rate && i-- > 0;)
-      values[i] =
-          i == 0 ? kNothing : (values[i] - values[i - 1]) / (record.time[i] - record.time[i - 1]);
-    if (source.rate && values.size() > 1) values[0] = values[1];
+    const GaugeField& field = record.fields[c % record.fields.size()];
+    std::vector<double> values = changed(field, record.time, record.values[c]);
     if (filters) values = resampled(record.time, values, gauge.every);
-    const std::string unit = std::string{source.unit} + (source.rate ? " s^-1" : "");
-    out.push_back({column_name(g, c), unit, "as the points have it", values});
+    const char* what = gauge.body < 0 ? "as the measure has it" : "as the points have it";
+    out.push_back({column_name(g, c), field.unit, what, values});
     if (filters)
-      out.push_back({column_name(g, c) + "_filtered", unit, meaning,
+      out.push_back({column_name(g, c) + "_filtered", field.unit, meaning,
                      filtered(values, gauge.every, gauge.filter, gauge.frequency)});
   }
   return out;
 }
 
 void Gauges::write(ResultsFolder& results) const {
+  for (std::size_t g = 0; g < records_.size(); ++g) {
+    const GaugeOptions& gauge = scene_.gauges[g];
+    SeriesTable series{gauge.name, table(g), {}, {{"every", gauge.every}}};
+    if (gauge.body >= 0) series.texts.emplace_back("body", body_name(gauge));
+    if (gauge.filter != GaugeFilter::none) {
+      series.texts.emplace_back("filter", gauge.filter_name);
+      series.numbers.emplace_back("filter_frequency", gauge.frequency);
+    }
+    results.write_gauge(std::move(series));
+  }
+}
+
+std::vector<std::string> Gauges::sentences() const {
+  std::vector<std::string> out;
   for (std::size_t g = 0; g < records_.size(); ++g)
-    results.write_table("gauge_" + scene_.gauges[g].name, table(g));
+    for (std::size_t k = 0; k < records_[g].gone.size(); ++k)
+      if (records_[g].gone[k] >= 0)
+        out.push_back(fmt::format("note: gauge {}, place {}: nothing is there since {:.4g} s",
+                                  scene_.gauges[g].name, k, records_[g].gone[k]));
+  return out;
 }
 
 void Gauges::summarize(Json& summary) const {
@@ -226,8 +193,8 @@ void Gauges::summarize(Json& summary) const {
     const GaugeOptions& gauge = scene_.gauges[g];
     Json& j = summary["gauges"][gauge.name];
     j["file"] = Json::of("gauge_" + gauge.name + ".csv");
-    j["body"] = Json::of(scene_.bodies[static_cast<std::size_t>(gauge.body)].name);
-    j["places"] = Json::of(gauge.at.size());
+    if (gauge.body >= 0) j["body"] = Json::of(body_name(gauge));
+    j["places"] = Json::of(records_[g].gone.size());
     j["samples"] = Json::of(records_[g].time.size());
     if (gauge.filter != GaugeFilter::none) {
       j["filter"] = Json::of(gauge.filter_name);

@@ -13,16 +13,28 @@ constexpr double kSettled = 0.01;  // of the whole change
 /// The value of a kind that looks back, or the sample itself.
 double value_of(MeasureKind kind, const MeasureSeries& series, double sample) {
   if (kind == MeasureKind::deceleration) return deceleration(series);
+  if (kind == MeasureKind::force) return rise(series);
   return kind == MeasureKind::settling_time ? settling_time(series) : sample;
 }
 
 }  // namespace
+
+bool looks_back(MeasureKind kind) {
+  return kind == MeasureKind::deceleration || kind == MeasureKind::settling_time ||
+         kind == MeasureKind::force;
+}
 
 double deceleration(const MeasureSeries& series) {
   const std::size_t n = series.time.size();
   if (n < 2) return 0;
   return -(std::abs(series.sample[n - 1]) - std::abs(series.sample[n - 2])) /
          (series.time[n - 1] - series.time[n - 2]);
+}
+
+double rise(const MeasureSeries& series) {
+  const std::size_t n = series.time.size();
+  if (n < 2) return 0;
+  return (series.sample[n - 1] - series.sample[n - 2]) / (series.time[n - 1] - series.time[n - 2]);
 }
 
 double settling_time(const MeasureSeries& series) {
@@ -42,9 +54,8 @@ double settling_time(const MeasureSeries& series) {
 }
 
 double follow(const MeasureOptions& measure, MeasureSeries& series, double time, double sample) {
-  const bool looks_back =
-      measure.kind == MeasureKind::deceleration || measure.kind == MeasureKind::settling_time;
-  if (looks_back && std::isfinite(sample) && (series.time.empty() || time > series.time.back())) {
+  if (looks_back(measure.kind) && std::isfinite(sample) &&
+      (series.time.empty() || time > series.time.back())) {
     series.time.push_back(time);
     series.sample.push_back(sample);
   }

@@ -95,15 +95,6 @@ std::optional<double> edge(const Band& band, int side) {
   return std::clamp(place, band.domain[0], band.domain[1]);
 }
 
-/// The side on which a symmetry plane cuts the body, if any.
-std::optional<int> cut_side(const BodyPoints& body, const MeasureContext& context, int axis) {
-  const std::array<double, 2> occupied = range(body, axis);
-  const double near = kTouching * node_spacing(context);
-  if (is_symmetry(context, axis, 0) && occupied[0] - context.min[index(axis)] < near) return 0;
-  if (is_symmetry(context, axis, 1) && context.max[index(axis)] - occupied[1] < near) return 1;
-  return std::nullopt;
-}
-
 /// K of every point for the band about z0 on the last axis.
 std::vector<double> band_weights(const BodyPoints& body, int last, double z0, double b) {
   std::vector<double> weights(body.count());
@@ -256,6 +247,14 @@ bool is_closed(const MeasureContext& context, int axis, int side) {
 
 bool is_symmetry(const MeasureContext& context, int axis, int side) {
   return context.boundary[index(axis)][index(side)] == BoundaryKind::symmetry;
+}
+
+std::optional<int> cut_side(const BodyPoints& body, const MeasureContext& context, int axis) {
+  const std::array<double, 2> occupied = range(body, axis);
+  const double near = kTouching * node_spacing(context);
+  if (is_symmetry(context, axis, 0) && occupied[0] - context.min[index(axis)] < near) return 0;
+  if (is_symmetry(context, axis, 1) && context.max[index(axis)] - occupied[1] < near) return 1;
+  return std::nullopt;
 }
 
 VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& context,

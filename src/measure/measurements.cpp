@@ -35,6 +35,7 @@ std::vector<std::string> fields_of(const MeasureOptions& measure) {
       return {"internal_energy"};
     case MeasureKind::failed_mass:
     case MeasureKind::mass_lost:
+    case MeasureKind::sound_mass:
       return {"failed"};
     default:
       return {};
@@ -48,6 +49,9 @@ bool needs_velocity(MeasureKind kind) {
     case MeasureKind::deceleration:
     case MeasureKind::settling_time:
     case MeasureKind::kinetic_energy:
+    case MeasureKind::angular_momentum:
+    case MeasureKind::obliquity:
+    case MeasureKind::yaw:
       return true;
     default:
       return false;
@@ -60,8 +64,7 @@ bool needs_pieces(const MeasureOptions& measure) {
 }
 
 bool in_row(const MeasureOptions& measure) {
-  return measure.in_history || measure.keep != Keep::now ||
-         measure.kind == MeasureKind::settling_time || measure.kind == MeasureKind::deceleration;
+  return measure.in_history || measure.keep != Keep::now || looks_back(measure.kind);
 }
 
 /// By grid axis.
@@ -120,6 +123,12 @@ Json bodies_json(const Scene& scene, const std::vector<int>& bodies) {
   return names;
 }
 
+std::string partner_name(const Scene& scene, Partner by) {
+  if (by.kind == Partner::Kind::body) return scene.bodies[static_cast<std::size_t>(by.number)].name;
+  return std::string{axis_name(scene.frame, by.number / 2)} +
+         (by.number % 2 == 0 ? "_min" : "_max");
+}
+
 Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStart& start,
                   const MeasureSeries& series, double value) {
   Json j;
@@ -127,6 +136,8 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
   j["unit"] = Json::of(unit_of(m));
   j["kind"] = Json::of(info(m.kind).name);
   j["body"] = bodies_json(scene, m.selection.bodies);
+  if (m.by) j["by"] = Json::of(partner_name(scene, *m.by));
+  if (m.direction != Triple{}) j["direction"] = vector_json(scene.frame, m.direction);
   if (m.axis >= 0) j["axis"] = Json::of(std::string{axis_name(scene.frame, m.axis)});
   if (m.kind == MeasureKind::diameter) j["at"] = Json::of(m.at);
   if (m.kind == MeasureKind::largest_diameter && m.level > 0) j["within"] = Json::of(m.level);
@@ -147,6 +158,12 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
 }
 
 }  // namespace
+
+MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure) {
+  MeasureContext out = measure_context(sim, measure.selection.bodies);
+  if (measure.by) out.impulse = sim.impulse(measure.selection.bodies, *measure.by);
+  return out;
+}
 
 Selections::Selections(const Scene& scene) {
   for (const MeasureOptions& m : scene.measures) {
@@ -209,9 +226,20 @@ void Measurements::check(const Simulation& sim) const {
   Selections selections{sim.scene()};
   for (std::size_t i = 0; i < start_.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
-    evaluate(m, selections.points(sim, m.selection), measure_context(sim, m.selection.bodies),
-             start_[i]);
+    evaluate(m, selections.points(sim, m.selection), context_of(sim, m), start_[i]);
   }
+}
+
+double Measurements::sample(const Simulation& sim, std::size_t i) {
+  const MeasureOptions& m = sim.scene().measures[i];
+  return evaluate(m, selections_.points(sim, m.selection), context_of(sim, m), start_[i]);
+}
+
+std::vector<double> Measurements::now(const Simulation& sim, const std::vector<int>& measures) {
+  selections_.begin();
+  std::vector<double> out;
+  for (const int i : measures) out.push_back(sample(sim, static_cast<std::size_t>(i)));
+  return out;
 }
 
 /// None of a broken state: its positions may be anything.
@@ -222,9 +250,7 @@ std::vector<double> Measurements::values(const Simulation& sim, bool all) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
     if (!all && !in_row(m)) continue;
-    const BodyPoints& points = selections_.points(sim, m.selection);
-    out[i] = follow(m, series_[i], sim.time(),
-                    evaluate(m, points, measure_context(sim, m.selection.bodies), start_[i]));
+    out[i] = follow(m, series_[i], sim.time(), sample(sim, i));
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "krater/core/errors.hpp"
+#include "krater/measure/attitude.hpp"
 #include "krater/measure/measure_surface.hpp"
 #include "krater/measure/openings.hpp"
 #include "krater/measure/pieces.hpp"
@@ -32,8 +33,17 @@ double mass(const BodyPoints& body) {
   return sum(body, [](std::size_t) { return 1.0; });
 }
 
-double momentum(const BodyPoints& body, int axis) {
-  return sum(body, [&](std::size_t p) { return body.v[p][index(axis)]; });
+double along(const MeasureOptions& measure, const Triple& v) {
+  const Triple d = direction_of(measure);
+  return v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
+}
+
+double momentum(const MeasureOptions& measure, const BodyPoints& body) {
+  const Triple d = direction_of(measure);
+  return sum(body, [&](std::size_t p) {
+    const Triple& v = body.v[p];
+    return v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
+  });
 }
 
 double kinetic_energy(const BodyPoints& body) {
@@ -114,6 +124,12 @@ double penetration_depth(const MeasureOptions& measure, const BodyPoints& body,
   return measure.side == 1 ? start.face - front : front - start.face;
 }
 
+double bulge(const MeasureOptions& measure, const BodyPoints& body, const MeasureContext& context,
+             const MeasureStart& start) {
+  const double top = outermost(body, context, measure.axis, measure.side);
+  return measure.side == 1 ? top - start.face : start.face - top;
+}
+
 /// Side 1: the largest value that points of a share of the mass reach; 0: the smallest. One point
 /// is no answer: its value grows without limit as the cell falls (overshoot beside the axis).
 double extreme(const MeasureOptions& measure, const BodyPoints& body, int side) {
@@ -151,10 +167,10 @@ constexpr Evaluator kEvaluators[] = {
     KRATER_MEASURE(min, false, outermost(b, c, m.axis, 0)),
     KRATER_MEASURE(diameter, false, diameter(b, c, m.at, m.at_from_end)),
     KRATER_MEASURE(largest_diameter, false, largest_diameter(b, c, m.level)),
-    KRATER_MEASURE(mean_velocity, false, momentum(b, m.axis) / mass(b)),
-    KRATER_MEASURE(momentum, true, momentum(b, m.axis)),
-    KRATER_MEASURE(deceleration, false, momentum(b, m.axis) / mass(b)),
-    KRATER_MEASURE(settling_time, false, momentum(b, m.axis) / mass(b)),
+    KRATER_MEASURE(mean_velocity, false, momentum(m, b) / mass(b)),
+    KRATER_MEASURE(momentum, true, momentum(m, b)),
+    KRATER_MEASURE(deceleration, false, momentum(m, b) / mass(b)),
+    KRATER_MEASURE(settling_time, false, momentum(m, b) / mass(b)),
     KRATER_MEASURE(kinetic_energy, true, kinetic_energy(b)),
     KRATER_MEASURE(internal_energy, true, total(b, scalar(m, b, "internal_energy"))),
     KRATER_MEASURE(mass, true, mass(b)),
@@ -170,6 +186,14 @@ constexpr Evaluator kEvaluators[] = {
     KRATER_MEASURE(hole_diameter, false, hole_diameter(b, c)),
     KRATER_MEASURE(debris_extent, false, debris_extent(m, b, c)),
     KRATER_MEASURE(fragments, true, static_cast<double>(connected_pieces(b, c).list.size())),
+    KRATER_MEASURE(impulse, true, along(m, c.impulse)),
+    KRATER_MEASURE(force, true, along(m, c.impulse)),
+    KRATER_MEASURE(angular_momentum, false, angular_momentum(b, c, direction_of(m))),
+    KRATER_MEASURE(obliquity, false, obliquity(b, c, direction_of(m))),
+    KRATER_MEASURE(yaw, false, yaw(b, c)),
+    KRATER_MEASURE(tilt, false, tilt(b, c, direction_of(m))),
+    KRATER_MEASURE(sound_mass, true, mass(b) - failed_mass(b)),
+    KRATER_MEASURE(bulge, false, bulge(m, b, c, s)),
 };
 #undef KRATER_MEASURE
 
@@ -177,7 +201,7 @@ constexpr bool in_order() {
   int next = 0;
   for (const Evaluator& e : kEvaluators)
     if (static_cast<int>(e.kind) != next++) return false;
-  return next == static_cast<int>(MeasureKind::fragments) + 1;
+  return next == static_cast<int>(MeasureKind::bulge) + 1;
 }
 static_assert(in_order());
 

@@ -138,17 +138,23 @@ Fate fate_of(const OutcomeState& state, const Triple& w, const Settling& settlin
 
 namespace {
 
-/// Of looks from `first` on, which began to change there: at rest, but for ringing.
+/// Of looks from `first` on, which began to change there: at rest, but for ringing. The mean of one
+/// stretch is small too while a body that bounces back turns round.
 bool at_rest(const std::vector<OutcomeLook>& looks, std::size_t first, const OutcomeStart& start,
              double tolerance) {
-  const double now = looks.back().time, from = now - (now - looks[first].time) / 3;
-  Triple sum{};
-  std::size_t count = 0;
-  for (std::size_t i = looks.size(); i-- > first && looks[i].time >= from; ++count) {
+  const double now = looks.back().time, third = (now - looks[first].time) / 3;
+  std::array<Triple, 2> sum{};
+  std::array<std::size_t, 2> count{};
+  for (std::size_t i = looks.size(); i-- > first && looks[i].time >= now - third;) {
     if (length(looks[i].w) > kRings * start.speed) return false;
-    for (std::size_t a = 0; a < 3; ++a) sum[a] += looks[i].w[a];
+    const std::size_t half = looks[i].time >= now - third / 2 ? 1 : 0;
+    count[half] += 1;
+    for (std::size_t a = 0; a < 3; ++a) sum[half][a] += looks[i].w[a];
   }
-  return count >= 5 && length(sum) < static_cast<double>(count) * kRest * tolerance * start.speed;
+  const double rest = kRest * tolerance * start.speed;
+  return std::min(count[0], count[1]) >= 2 && count[0] + count[1] >= 5 &&
+         length(sum[0]) < static_cast<double>(count[0]) * rest &&
+         length(sum[1]) < static_cast<double>(count[1]) * rest;
 }
 
 }  // namespace

@@ -193,6 +193,9 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   for (int k = 0; k < dimension(frame); ++k)
     add(row, "wall_impulse_" + std::string{axis_name(frame, k)}, "N s",
         a.wall_impulse[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < dimension(frame); ++k)
+    add(row, "external_impulse_" + std::string{axis_name(frame, k)}, "N s",
+        a.external_impulse[static_cast<std::size_t>(k)]);
   add(row, "angular_momentum", "kg m^2/s", t.angular_momentum);
   add(row, "removed_points", "1", a.removed_points);
   add(row, "removed_mass", "kg", a.removed_mass);
@@ -241,12 +244,17 @@ Json audit_json(const Simulation& sim) {
   j["energy_error_fraction"] = Json::of(a.error_fraction());
   j["mass"] = Json::of(t.mass);
   j["removed_mass"] = Json::of(a.removed_mass);
-  for (int k = 0; k < dimension(sim.scene().frame); ++k) {
-    const std::string axis{axis_name(sim.scene().frame, k)};
-    j["momentum_" + axis] = Json::of(t.momentum[static_cast<std::size_t>(k)]);
-    j["wall_impulse_" + axis] = Json::of(a.wall_impulse[static_cast<std::size_t>(k)]);
-    j["removed_momentum_" + axis] = Json::of(a.removed_momentum[static_cast<std::size_t>(k)]);
-  }
+  const std::pair<const char*, const Triple&> momenta[] = {
+      {"momentum_", t.momentum},
+      {"wall_impulse_", a.wall_impulse},
+      {"external_impulse_", a.external_impulse},
+      {"load_impulse_", a.load_impulse},
+      {"damping_impulse_", a.damping_impulse},
+      {"removed_momentum_", a.removed_momentum}};
+  for (const auto& [name, value] : momenta)
+    for (int k = 0; k < dimension(sim.scene().frame); ++k)
+      j[name + std::string{axis_name(sim.scene().frame, k)}] =
+          Json::of(value[static_cast<std::size_t>(k)]);
   j["angular_momentum"] = Json::of(t.angular_momentum);
   Json events;
   events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));

@@ -60,6 +60,22 @@ void require_usable(const std::vector<Quantity>& row) {
   }
 }
 
+void save_series(const Node& group, const std::vector<SeriesTable>& series) {
+  for (const SeriesTable& s : series) {
+    const Node gauge = group.make_group(s.name);
+    gauge.set(s.texts);
+    for (const auto& [name, value] : s.numbers) gauge.set(name, value);
+    std::vector<std::string> names;
+    for (const TableColumn& c : s.columns) {
+      const Node dataset = gauge.make_dataset(c.name, {c.values.size()}, c.values.data());
+      dataset.set("unit", c.unit);
+      dataset.set("meaning", c.meaning);
+      names.push_back(c.name);
+    }
+    gauge.set("columns", names);
+  }
+}
+
 }  // namespace
 
 void History::remove_all() {
@@ -152,6 +168,16 @@ void History::append(const std::vector<Quantity>& row) {
   appender_.append(line(values_.front().size() - 1));
 }
 
+void History::set_series(SeriesTable table) {
+  const auto at = std::find_if(series_.begin(), series_.end(),
+                               [&](const SeriesTable& s) { return s.name == table.name; });
+  if (at == series_.end())
+    series_.push_back(std::move(table));
+  else
+    *at = std::move(table);
+  saved_ = false;
+}
+
 void History::save_copy(const TextAttributes& attributes) {
   if (saved_) return;
   MemoryFile file(folder_ + "/history.h5");
@@ -161,6 +187,7 @@ void History::save_copy(const TextAttributes& attributes) {
         file.make_dataset(columns_[k].name, {values_[k].size()}, values_[k].data());
     dataset.set("unit", columns_[k].unit);
   }
+  if (!series_.empty()) save_series(file.make_group(kGauges), series_);
   file.save();
   saved_ = true;
 }

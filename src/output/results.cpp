@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <future>
+#include <string_view>
 #include <system_error>
 
 #include "krater/core/errors.hpp"
@@ -41,8 +42,23 @@ struct ResultsFolder::Impl {
         fs::remove(path + "/" + name, error);
         fs::remove(path + "/" + name + output::kPartSuffix, error);
       }
+      remove_gauges();
     }
     ready = true;
+  }
+
+  /// Also those that this scene has no more.
+  void remove_gauges() const {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator{path}) {
+      std::string name = entry.path().filename().string();
+      if (name.ends_with(output::kPartSuffix))
+        name.resize(name.size() - std::string_view{output::kPartSuffix}.size());
+      if (name.starts_with(output::kGauge) && (name.ends_with(".csv") || name.ends_with(".h5")))
+        found.push_back(entry.path());
+    }
+    std::error_code error;
+    for (const fs::path& file : found) fs::remove(file, error);
   }
 
   std::string path;
@@ -111,6 +127,13 @@ void ResultsFolder::write_table(const std::string& name, const std::vector<Table
   wait();
   impl_->prepare();
   output::save_table(impl_->path + "/" + name, columns, impl_->attributes);
+}
+
+void ResultsFolder::write_gauge(SeriesTable table) {
+  wait();
+  impl_->prepare();
+  output::save_csv(impl_->path + "/" + output::kGauge + table.name, table.columns);
+  impl_->history.set_series(std::move(table));
 }
 
 void ResultsFolder::write_summary(const Json& summary) {

@@ -25,17 +25,24 @@ std::string as_csv(const std::vector<TableColumn>& columns) {
   return text;
 }
 
+void require_table(const std::vector<TableColumn>& columns) {
+  for (const TableColumn& c : columns)
+    if (c.values.size() != columns.front().values.size())
+      throw std::invalid_argument("table: column '" + c.name + "' has another length");
+}
+
 }  // namespace
+
+void save_csv(const std::string& path, const std::vector<TableColumn>& columns) {
+  require_table(columns);
+  replace_file(path + ".csv", as_csv(columns));
+}
 
 void save_table(const std::string& path, const std::vector<TableColumn>& columns,
                 const TextAttributes& attributes) {
+  save_csv(path, columns);
   std::vector<std::string> names;
-  for (const TableColumn& c : columns) {
-    if (c.values.size() != columns.front().values.size())
-      throw std::invalid_argument("table: column '" + c.name + "' has another length");
-    names.push_back(c.name);
-  }
-  replace_file(path + ".csv", as_csv(columns));
+  for (const TableColumn& c : columns) names.push_back(c.name);
   MemoryFile file(path + ".h5");
   file.set(attributes);
   file.set("columns", names);

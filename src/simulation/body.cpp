@@ -29,6 +29,15 @@ bool wants(const Scene& scene, const FieldInfo& field) {
   return false;
 }
 
+/// A gauge records strains of the body.
+bool strained(const Scene& scene, int body) {
+  return std::any_of(scene.gauges.begin(), scene.gauges.end(), [body](const GaugeOptions& gauge) {
+    return gauge.body == body &&
+           std::any_of(gauge.fields.begin(), gauge.fields.end(),
+                       [](const std::string& name) { return name.starts_with(kStrain); });
+  });
+}
+
 /// Where the scene may be its own mirror image, across the axes before the last: at a symmetry side
 /// of the domain, else in the middle of all bodies, else (where that is no border between columns
 /// of points) in the middle of the domain.
@@ -78,14 +87,15 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   if (options_->mesh) {
     declare_elements(material_->density, layout_);
   } else {
-    declare_points(method,
-                   {.density = material_->density,
-                    .loaded = scene.body_force != nullptr,
-                    .face_loads = !loads_of(scene, index).empty(),
-                    .walls = has_wall(scene),
-                    .reference_position = wants(scene, field::ReferencePosition::info),
-                    .deformation = wants(scene, field::DeformationGradient::info)},
-                   layout_);
+    declare_points(
+        method,
+        {.density = material_->density,
+         .loaded = scene.body_force != nullptr,
+         .face_loads = !loads_of(scene, index).empty(),
+         .walls = has_wall(scene),
+         .reference_position = wants(scene, field::ReferencePosition::info),
+         .deformation = wants(scene, field::DeformationGradient::info) || strained(scene, index)},
+        layout_);
   }
   add_stages(factory);
   if (options_->mesh)

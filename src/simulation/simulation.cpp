@@ -107,10 +107,11 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) fields.push_back(own_field(b));
     grid_.set_fields(std::move(fields));
   }
+  watch_impulses();
   loads_ = make_loads();
   step_ = std::make_unique<MpmStep>(
       scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
-                                   kernel_data_, audit_, *loads_});
+                                   kernel_data_, audit_, *loads_, impulses_});
   place_rigid_bodies();
   place_meshes();
   choose_first_step();
@@ -133,6 +134,17 @@ std::unique_ptr<NodeLoads> Simulation::make_loads() {
   }
   return std::make_unique<NodeLoads>(scene_.loads, grid_, kernel_data_, std::move(columns),
                                      std::move(rigid));
+}
+
+void Simulation::watch_impulses() {
+  for (const MeasureOptions& m : scene_.measures) {
+    if (!m.by) continue;
+    for (const FieldId on : fields_of(m.selection.bodies)) impulses_.watch(on, *m.by);
+    if (m.by->kind == Partner::Kind::body)
+      contact_.note_impulses();
+    else
+      boundary_.note_impulses();
+  }
 }
 
 void Simulation::place_rigid_bodies() {
@@ -255,7 +267,7 @@ void Simulation::step(double until) {
   rigid_.set_time(time());
   if (boundary_.set_time(time())) step_->relink();
   loads_->set_time(time());
-  if (scene_.body_force) apply_body_force();
+  const Triple body_force = scene_.body_force ? apply_body_force() : Triple{};
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;
   try {
@@ -276,6 +288,7 @@ void Simulation::step(double until) {
     deliver(grid_, kernel_data_);
     throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time(), steps()));
   }
+  audit_.book_body_force(body_force, taken);
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
@@ -322,7 +335,8 @@ std::array<double, 3> Simulation::apply_point_walls(double dt) {
   return push_from_walls(grid_, kernel_data_, boundary_, spacing, dt);
 }
 
-void Simulation::apply_body_force() {
+Triple Simulation::apply_body_force() {
+  Triple force{};
   const Acceleration load = [this](const Triple& x, const Triple& X, double t) {
     return (*scene_.body_force)(x, X, t);
   };
@@ -333,9 +347,11 @@ void Simulation::apply_body_force() {
     if (rigid_.find(patch.body)) continue;
     const auto b = static_cast<std::size_t>(patch.body);
     const Column* reference = bodies_[b]->layout().find(field::ReferencePosition::info.name);
-    accelerate(patch.points, kernel_data_[b].columns, reference->offset, geometry_.dimension, load,
-               time());
+    const Triple more = accelerate(patch.points, kernel_data_[b].columns, reference->offset,
+                                   geometry_.dimension, load, time());
+    for (std::size_t a = 0; a < 3; ++a) force[a] += more[a];
   }
+  return force;
 }
 
 }  // namespace krater

@@ -125,6 +125,23 @@ Totals Simulation::totals() const {
   return t;
 }
 
+/// The velocity fields of bodies, each once: one for all of them where they have no contact.
+std::vector<FieldId> Simulation::fields_of(const std::vector<int>& bodies) const {
+  if (!scene_.contact.active) return {FieldId{}};
+  std::vector<FieldId> out;
+  for (const int b : bodies) out.push_back(own_field(b));
+  return out;
+}
+
+Triple Simulation::impulse(const std::vector<int>& bodies, Partner by) const {
+  Triple sum{};
+  for (const FieldId on : fields_of(bodies)) {
+    const Triple more = impulses_.of(on, by);
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += more[a];
+  }
+  return sum;
+}
+
 std::string Simulation::describe_point(int s, int point) const {
   const Body& body = *bodies_[static_cast<std::size_t>(set(s).body)];
   std::string position;

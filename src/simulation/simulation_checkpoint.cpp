@@ -59,6 +59,14 @@ const CheckpointBlob& demand(const Checkpoint& checkpoint, const std::string& na
 
 }  // namespace
 
+std::string Simulation::impulse_name(const ImpulsePair& p) const {
+  const auto body = [this](int b) { return bodies_[static_cast<std::size_t>(b)]->name(); };
+  return fmt::format("impulses/{}/{}",
+                     scene_.contact.active ? body(body_of(p.on)) : std::string{"all"},
+                     p.by.kind == Partner::Kind::body ? "body " + body(p.by.number)
+                                                      : fmt::format("side {}", p.by.number));
+}
+
 void Simulation::save_body(int b, Checkpoint& out) const {
   const Body& body = *bodies_[static_cast<std::size_t>(b)];
   std::vector<std::int64_t> keys;
@@ -96,6 +104,8 @@ Checkpoint Simulation::save() const {
   for_each_entry(audit_, [&](const char*, double value) { entries.push_back(value); });
   out.blobs.push_back(numbers("audit/entries", std::move(entries)));
   out.blobs.push_back({"audit/names", {}, {}, {}, audit_text()});
+  for (const ImpulsePair& p : impulses_.pairs())
+    out.blobs.push_back(numbers(impulse_name(p), {p.impulse[0], p.impulse[1], p.impulse[2]}));
   warnings_.save(out);
   for (std::size_t b = 0; b < bodies_.size(); ++b) save_body(static_cast<int>(b), out);
   return out;
@@ -150,6 +160,9 @@ void Simulation::restore(const Checkpoint& checkpoint) {
     throw InputError("checkpoint was written by another version of krater");
   std::size_t entry = 0;
   for_each_entry(audit_, [&](const char*, double& value) { value = entries[entry++]; });
+  for (ImpulsePair& p : impulses_.pairs())  // of a measure that is new: from now on
+    if (const CheckpointBlob* blob = checkpoint.find(impulse_name(p)))
+      std::copy_n(blob->doubles.begin(), 3, p.impulse.begin());
   warnings_.restore(checkpoint);
   grid_.drop_patches();
   for (std::size_t b = 0; b < bodies_.size(); ++b) restore_body(static_cast<int>(b), checkpoint);

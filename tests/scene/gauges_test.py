@@ -9,7 +9,7 @@ import pathlib
 import h5py
 import numpy as np
 
-from scene_support import Folder, check, finish, krater, run, summary
+from scene_support import Folder, check, finish, history, krater, results_errors, run, summary
 
 # A plate of 10 mm in uniaxial strain: a pressure of 1 MPa from below reaches the free surface after L/c.
 PLATE = """
@@ -22,9 +22,10 @@ materials:
           viscosity: {q_lin: 0.3, q_quad: 0}}
 bodies: {plate: {material: steel, shape: {box: {min: [-1, -1, 0], max: [1, 1, 10 mm]}}}}
 loads: {push: {body: plate, face: z_min, pressure: 1 MPa}}
+measures: {weight: {kind: mass, body: plate}, late: {kind: settling_time, body: plate, axis: z}, slows: {kind: deceleration, body: plate, axis: z}}
 gauges:
   visar: {body: plate, at: [0, 10 mm], fields: [velocity_z, speed], every: 20 ns, filter: {butterworth: 5 MHz}}
-  inside: {body: plate, from: [0, 2 mm], to: [0, 8 mm], count: 3, fields: [stress_zz, velocity_z, pressure_rate]}
+  inside: {body: plate, from: [0, 2 mm], to: [0, 8 mm], count: 3, fields: [stress_zz, velocity_z, pressure_rate, strain_zz, strain_xx]}
   space: {body: plate, fixed: true, at: [0.1 mm, 5 mm], fields: [velocity_z, von_mises]}
   above: {body: plate, fixed: true, at: [0.1 mm, 11 mm], fields: [velocity_z]}
 """
@@ -57,9 +58,12 @@ def main():
         check(np.allclose(np.diff(t), 20e-9, rtol=1e-6) and "velocity_z_filtered" in visar, "filtered samples are even")
         said = summary("one")["gauges"]["visar"]
         check(said["filter_frequency"] == 5e6 and said["nothing_there_since"] == [None], "the filter's frequency is told", said)
-        with h5py.File("one/gauge_visar.h5", "r") as file:
-            meaning = file["velocity_z_filtered"].attrs["meaning"]
-        check("5e+06 Hz" in str(meaning), "in the columns too", meaning)
+        with h5py.File("one/history.h5", "r") as file:
+            visar_group = file["gauges/visar"]
+            meaning, unit = (visar_group["velocity_z_filtered"].attrs[a] for a in ("meaning", "unit"))
+            check(visar_group.attrs["filter_frequency"] == 5e6 and np.array_equal(visar_group["velocity_z"][()], visar["velocity_z"]),
+                  "history.h5 holds the same", dict(visar_group.attrs))
+        check("5e+06 Hz" in str(meaning) and unit == "m/s", "in the columns too", (meaning, unit))
         for k, z in enumerate((2e-3, 5e-3, 8e-3)):
             here = (inside["time"] > (z + 1.5e-3) / C) & (inside["time"] < (18.5e-3 - z) / C)
             near(inside[f"stress_zz_{k}"][here], -1e6, 0.01, f"stress at {z} m behind the front")
@@ -67,6 +71,10 @@ def main():
         rise = inside["pressure_rate_1"]
         check(abs(inside["time"][np.argmax(rise)] - 5e-3 / C) < 0.05e-6, "the pressure rises when the wave passes",
               inside["time"][np.argmax(rise)])
+        # Behind the front of a uniaxial wave h_zz = ln(1 + eps), eps = sigma/(rho c^2); the rest of the tensor is nothing.
+        here = (inside["time"] > 6.5e-3 / C) & (inside["time"] < 13.5e-3 / C)
+        near(inside["strain_zz_1"][here], np.log(1 - 1e6 / (7850 * C * C)), 0.01, "logarithmic strain behind the front")
+        check(np.max(np.abs(inside["strain_xx_1"])) < 1e-2 * 1e6 / (7850 * C * C), "and none across", np.max(np.abs(inside["strain_xx_1"])))
         here = (space["time"] > 7e-3 / C) & (space["time"] < 13e-3 / C)
         near(space["velocity_z"][here], V, 0.01, "velocity at a place in space")
         check(summary("one")["gauges"]["above"]["nothing_there_since"] == [0], "a place without matter says since when")
@@ -78,13 +86,76 @@ def main():
             files = [pathlib.Path(f, f"gauge_{name}.csv").read_bytes() for f in ("one", "two", "parts", "whole")]
             check(files[0] == files[1], f"{name}: the same bits on two threads")
             check(files[2] == files[3], f"{name}: the same bits across a restart")
+        pathlib.Path("two/gauge_other.csv").write_text("of another scene", encoding="utf-8")
+        run("two", "time.end=0.1 us", scene=scene)
+        check(not os.path.exists("two/gauge_other.csv") and os.path.exists("two/gauge_visar.csv"), "a fresh run clears what gauges left")
+        check(results_errors("one") == "", "the results are whole", results_errors("one"))
+        removed(scene)
+        bent(folder)
         for setting, part in (("gauges.visar.body=plat", "did you mean plate"), ("gauges.visar.at=[0, 14 mm]", "lies outside"),
                               ("gauges.visar.fields=[velocity_q]", "carry no 'velocity_q'"), ("gauges.visar.fields=[]", "a list of fields"),
                               ("gauges.visar.every=1 mm", "wrong dimension"), ("gauges.visar.filter={cfc: 1e8}", "four samples a period"),
-                              ("gauges.visar.filter={median: 3}", "known: butterworth"), ("gauges.inside.at=[0, 1 mm]", "expected at")):
+                              ("gauges.visar.filter={median: 3}", "known: butterworth"), ("gauges.inside.at=[0, 1 mm]", "expected at"),
+                              ("gauges.visar={measures: [size]}", "size"), ("gauges.visar={measures: [weight, late]}", "whole history"),
+                              ("gauges.visar={measures: [slows_rate]}", "a rate already"), ("gauges.visar={measures: []}", "a list of"),
+                              ("gauges.visar.fields=[strain_qq]", "carry no 'strain_qq'")):
             done = krater("check", scene, "--set", setting)
             check(done.returncode == 2 and part in done.text and "gauges." in done.text, f"{setting} is refused", done.text[:300])
     finish()
+
+
+def removed(scene):
+    """A point that fails is taken away, and the gauge says when."""
+    values = ["materials.steel.strength={von_mises: {Y: 0.1 MPa}}", "materials.steel.damage={maximum_plastic_strain: {eps_max: 1e-6}}",
+              "materials.steel.failure={action: remove}", "gauges.inside.every=3 ns", "gauges.inside.from=[0, 0.05 mm]", "loads.push.pressure=10 MPa", "output.frames=0"]
+    done = run("gone", *values, scene=scene)
+    said = summary("gone")["gauges"]["inside"]["nothing_there_since"]
+    rows = table("gone", "inside")
+    first = rows["time"][np.argmax(np.isnan(rows["velocity_z_0"]))]
+    check(done.returncode == 0 and said[0] is not None and said[0] == first and f"gauge inside, place 0: nothing is there since {first:.4g} s" in done.text,
+          "a gauge whose point was removed says when", (said, first, done.text[-300:]))
+
+
+TURN = """
+frame: plane_strain
+grid: {cell: 1 mm, box: {min: [-20 mm, -30 mm], max: [20 mm, 20 mm]}}
+time: {end: 20 us}
+output: {frames: 0}
+materials: {soft: {density: 2700, bulk_modulus: 75 GPa, shear_modulus: 26 GPa, eos: linear, strength: elastic}}
+bodies:
+  rod: {material: soft, shape: {rotate: {axis: y, angle: 30 degree, shape: {box: {min: [-2 mm, -1, -10 mm], max: [2 mm, 1, 10 mm]}}}},
+        velocity: {speed: 300 m/s, angle: 10 degree}, turn: {axis: y, rate: 500 1/s}}
+measures:
+  tip: {kind: tilt, body: rod, axis: z}
+  yaw: {kind: yaw, body: rod}
+  way: {kind: obliquity, body: rod, axis: z}
+  spin: {kind: angular_momentum, body: rod}
+  along: {kind: mean_velocity, body: rod, axis: [0.17364817766693, -0.98480775301221]}
+  sound: {kind: sound_mass, body: rod}
+  foot: {kind: bulge, body: rod, face: z_min, history: true}
+gauges: {flight: {measures: [yaw, spin, along, foot_rate], every: 1 us}}
+"""
+
+
+def bent(folder):
+    """A rod of 4 x 20 mm at 30 degrees, on a way at 10 degrees, turning slowly."""
+    scene = pathlib.Path(folder, "turn.yaml")
+    scene.write_text(TURN, encoding="utf-8")
+    done = run("turn", scene=scene)
+    if not check(done.returncode == 0, "a turning rod flies", done.text[-400:]):
+        return
+    rows, degree = history("turn"), np.pi / 180
+    turned = 500 * rows["time"]
+    check(abs(rows["way"][0] - 10 * degree) < 1e-9 and abs(rows["along"][0] - 300) < 1e-9, "obliquity of its way", rows["way"][0] / degree)
+    for name, exact in (("tip", 30 * degree + turned), ("yaw", 40 * degree + turned)):
+        off = max(abs(abs(rows[name] - rows[name][0]) - turned))
+        check(off < 0.02 * turned[-1], f"{name} turns as the rod does", off / degree)
+        check(min(abs(rows[name][0] - a * degree) for a in (20, 30, 40)) < 0.5 * degree, f"{name} at the start", rows[name][0] / degree)
+    inertia = rows["sound"][0] * (4e-3**2 + 20e-3**2) / 12
+    check(abs(rows["spin"][0] / (500 * inertia) - 1) < 0.02 and np.ptp(rows["spin"]) < 1e-3 * rows["spin"][0], "its own angular momentum",
+          (rows["spin"][0], 500 * inertia))
+    check(np.isfinite(table("turn", "flight")["foot_rate"]).all() and abs(rows["foot"][-1] - 300 * np.cos(10 * degree) * 20e-6) < 2e-4,
+          "a bulge is counted from the face at the start", rows["foot"][-1])
 
 
 def every():

@@ -14,6 +14,7 @@ SCENES = {
     "ccf_plugging": {"frames": ("axisymmetric",), "end": "5 us", "coarse": None, "cell": "0.8 mm", "too_large": ("3d",)},
     "hiermaier_al": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("3d",)},
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
+    "copper_spall": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.1 us", "coarse": "0.02 mm"},
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},

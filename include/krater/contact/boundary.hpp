@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "krater/contact/impulse_heat.hpp"
+#include "krater/contact/impulses.hpp"
 #include "krater/contact/options.hpp"
 #include "krater/grid/blocks.hpp"
 
@@ -96,6 +97,9 @@ class BoundarySet {
   }
   /// What the folds did to points that keep the share `alpha` of their residual; after mirror().
   BoundaryWork folded(double dt, double alpha) const;
+  void note_impulses() { notes_ = true; }  ///< from now on
+  /// What planes that push gave each velocity field in the last constrain(), if it was noted.
+  const std::vector<ImpulsePair>& given() const { return given_; }
   /// Some plane moves nodes by itself.
   bool drives() const;
   bool is_open(int axis, int side) const {
@@ -110,6 +114,7 @@ class BoundarySet {
   };
   struct Column {
     double *ghost, *plane, *inner;
+    FieldId field;
     bool moves_points;                ///< the field is not that of a rigid body
     std::array<std::size_t, 3> held;  ///< of a plane that pushes: its nodes in held_
     double gap;  ///< fixed reference: distance of the plane's material from the wall [m]
@@ -155,6 +160,8 @@ class BoundarySet {
   std::vector<Plane> planes_;
   std::vector<Held> held_;  ///< each node once, in the order of memory
   ImpulseHeat heat_;
+  bool notes_ = false;
+  std::vector<ImpulsePair> given_;
 };
 
 }  // namespace krater

@@ -39,6 +39,7 @@
 
 #include "krater/contact/boundary.hpp"
 #include "krater/contact/impulse_heat.hpp"
+#include "krater/contact/impulses.hpp"
 #include "krater/contact/rigid.hpp"
 #include "krater/points/columns.hpp"
 
@@ -46,15 +47,21 @@ namespace krater {
 
 /// What contact did in one step.
 struct ContactWork {
-  double change = 0;    ///< of kinetic energy, rigid bodies included [J]
-  double friction = 0;  ///< work of the tangential impulses, part of `change` [J]
-  double nodes = 0;     ///< pairs that pushed
-  double driven = 0;    ///< work of prescribed rigid bodies on others, part of `change` [J]
+  double change = 0;        ///< of kinetic energy, rigid bodies included [J]
+  double friction = 0;      ///< work of the tangential impulses, part of `change` [J]
+  double nodes = 0;         ///< pairs that pushed
+  double driven = 0;        ///< work of prescribed rigid bodies on others, part of `change` [J]
+  Triple driven_impulse{};  ///< of what drives them, and ...
+  Triple held_impulse{};    ///< ... of the planes along which free ones move [N s]
   void add(const ContactWork& o) {
     change += o.change;
     friction += o.friction;
     nodes += o.nodes;
     driven += o.driven;
+    for (std::size_t a = 0; a < 3; ++a) {
+      driven_impulse[a] += o.driven_impulse[a];
+      held_impulse[a] += o.held_impulse[a];
+    }
   }
 };
 
@@ -64,6 +71,7 @@ class ContactSet {
   ContactSet(const GridGeometry& geometry, const BoundaryConditions& conditions, bool hoop,
              bool linear, const ContactOptions& options);
   bool active() const { return options_.active; }
+  void note_impulses() { notes_ = true; }  ///< from now on
   void set_fluids(std::vector<bool> by_body) { fluids_ = std::move(by_body); }
   /// Find the blocks that fields share; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
@@ -74,6 +82,8 @@ class ContactSet {
   /// What the pushes of the last call took from motion becomes heat of the nodes, which hold k
   /// (contact/impulse_heat.hpp); returns it [J]. When every v+ is final.
   double heat();
+  /// Adds what bodies gave each other in the last call, if it was noted.
+  void give(Impulses& impulses) const;
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -108,6 +118,7 @@ class ContactSet {
     std::vector<RigidShare> shares;     ///< of the step
     ImpulseHeat heat;                   ///< of the step
     std::vector<RigidPush> rigid_pushes;
+    std::vector<ImpulsePair> given;  ///< of the step, if it is noted
   };
   struct Before {
     double* node;
@@ -150,8 +161,8 @@ class ContactSet {
   Strike strike_of(const BlockGrid& grid, const Group& group, const Contact& contact,
                    bool a_is_rigid) const;
   void probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const;
-  void exchange(const Strike& strike, const RigidTwist& twist, Group& group,
-                ContactWork& sum) const;
+  Triple exchange(const Strike& strike, const RigidTwist& twist, Group& group,
+                  ContactWork& sum) const;  ///< returns the impulse on the node
   static RigidShare& share_of(Group& group, int body);
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
@@ -160,12 +171,14 @@ class ContactSet {
   double gap(const double* phi_a, const double* phi_b) const;
   bool find_contact(const Scratch& scratch, int at, Contact& contact) const;
   bool keep_in_planes(const BlockKey& key, Contact& contact) const;
-  void exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;
+  /// Returns the impulse on a.
+  Triple exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;
 
   GridGeometry geometry_;
   BoundaryConditions conditions_;
   bool hoop_, linear_;
   ContactOptions options_;
+  bool notes_ = false;
   std::vector<bool> fluids_;                ///< by body; beyond the list: no
   int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;

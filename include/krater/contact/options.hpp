@@ -30,6 +30,15 @@ struct Boundary {
   bool mirrors(int axis) const { return closed() && !travels(axis); }
 };
 
+/// Who pushes: a body, or a side of the domain, 2 axis + (0 lower, 1 upper).
+struct Partner {
+  enum class Kind { body, side };
+  Kind kind = Kind::body;
+  int number = -1;
+  static constexpr Partner side(int axis, int upper) { return {Kind::side, 2 * axis + upper}; }
+  friend bool operator==(const Partner&, const Partner&) = default;
+};
+
 enum class ContactNormal { volume_gradient, logistic_regression };
 
 /// Contact of velocity fields; every body has its own while it is on.

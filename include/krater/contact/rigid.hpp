@@ -130,6 +130,7 @@ class RigidBodies {
   /// The points' velocities, at the start.
   void write_velocities(BlockGrid& grid, const std::vector<PointColumns>& columns) const;
   double kinetic() const;
+  Triple momentum() const;  ///< [kg m/s]
   /// Velocities of the step; returns the work of loads and drives [J].
   double begin(double dt);
   void rewind();

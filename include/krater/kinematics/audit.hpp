@@ -21,12 +21,13 @@ namespace krater {
 struct Removed {
   double count = 0, mass = 0, kinetic = 0, internal = 0;
   std::array<double, 3> momentum{};
-  double failed = 0;                     ///< of these, removed by failure
-  double reflections = 0;                ///< points put back at a closed side
-  double penetrations = 0;               ///< of these, from further than round-off
-  double deepest = 0;                    ///< of the reflections [cells]
-  double side_work = 0;                  ///< of the sides in putting back [J]
-  std::array<double, 3> side_impulse{};  ///< and their impulse [N s]
+  double failed = 0;        ///< of these, removed by failure
+  double reflections = 0;   ///< points put back at a closed side
+  double penetrations = 0;  ///< of these, from further than round-off
+  double deepest = 0;       ///< of the reflections [cells]
+  double side_work = 0;     ///< of the sides in putting back [J]
+  /// And their impulse, by side: 2 axis + (0 lower, 1 upper) [N s].
+  std::array<std::array<double, 3>, 6> side_impulse{};
 };
 
 struct Audit {
@@ -50,7 +51,10 @@ struct Audit {
   double wall_work = 0;                    ///< of sides of the domain that move, from outside [J]
   double removed_energy = 0, removed_mass = 0, removed_points = 0;
   double removed_failed = 0;  ///< of the removed points, those removed by failure
-  std::array<double, 3> removed_momentum{}, wall_impulse{};
+  /// Momentum now is that at the start, less what was removed, plus impulses [N s]: of sides of the
+  /// domain, and from outside (body forces, loads, damping, what drives rigid bodies).
+  std::array<double, 3> removed_momentum{}, wall_impulse{}, external_impulse{};
+  std::array<double, 3> load_impulse{}, damping_impulse{};  ///< of external_impulse
   double plastic_work = 0, viscous_work = 0, plastic_heating = 0;
   double sound_speed_floors = 0, hugoniot_poles = 0, reflections = 0, retries = 0;  ///< events
   double penetrations = 0;                          ///< reflections from further than round-off
@@ -85,6 +89,10 @@ struct Audit {
   /// force did, so that their work can be told apart.
   void book_point_walls(const std::array<double, 3>& force, double dt, bool alone);
   double energy() const { return kinetic + internal + removed_energy; }  ///< what there is [J]
+  /// Body forces on points, from outside, during dt.
+  void book_body_force(const std::array<double, 3>& force, double dt) {
+    for (std::size_t a = 0; a < 3; ++a) external_impulse[a] += force[a] * dt;
+  }
   /// Energy and momentum that left with removed points.
   void book_removed(const Removed& gone);
 
@@ -117,6 +125,9 @@ struct Audit {
 /// what must be a number.
 template <class Account, class Visit>
 constexpr void for_each_entry(Account& a, const Visit& visit) {
+  const auto axes = [&visit](const std::array<const char*, 3>& names, auto& vector) {
+    for (std::size_t k = 0; k < 3; ++k) visit(names[k], vector[k]);
+  };
   visit("kinetic", a.kinetic);
   visit("internal", a.internal);
   visit("initial_kinetic", a.initial_kinetic);
@@ -144,12 +155,11 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("removed_mass", a.removed_mass);
   visit("removed_points", a.removed_points);
   visit("removed_failed", a.removed_failed);
-  visit("removed_momentum_0", a.removed_momentum[0]);
-  visit("removed_momentum_1", a.removed_momentum[1]);
-  visit("removed_momentum_2", a.removed_momentum[2]);
-  visit("wall_impulse_0", a.wall_impulse[0]);
-  visit("wall_impulse_1", a.wall_impulse[1]);
-  visit("wall_impulse_2", a.wall_impulse[2]);
+  axes({"removed_momentum_0", "removed_momentum_1", "removed_momentum_2"}, a.removed_momentum);
+  axes({"wall_impulse_0", "wall_impulse_1", "wall_impulse_2"}, a.wall_impulse);
+  axes({"external_impulse_0", "external_impulse_1", "external_impulse_2"}, a.external_impulse);
+  axes({"load_impulse_0", "load_impulse_1", "load_impulse_2"}, a.load_impulse);
+  axes({"damping_impulse_0", "damping_impulse_1", "damping_impulse_2"}, a.damping_impulse);
   visit("plastic_work", a.plastic_work);
   visit("viscous_work", a.viscous_work);
   visit("plastic_heating", a.plastic_heating);

@@ -15,9 +15,9 @@ namespace krater {
 /// Acceleration [m/s^2] along the grid axes at x (at the start: X) and time t.
 using Acceleration = std::function<Triple(const Triple& x, const Triple& X, double t)>;
 
-/// `reference`: column of the positions at the start.
-void accelerate(PointStore& points, const PointColumns& columns, int reference, int dimension,
-                const Acceleration& load, double time);
+/// `reference`: column of the positions at the start. Returns the force, sum m b [N].
+Triple accelerate(PointStore& points, const PointColumns& columns, int reference, int dimension,
+                  const Acceleration& load, double time);
 
 /// Sets the load of a rigid body from all its points.
 void load_rigid(RigidBody& body, BlockGrid& grid, const PointColumns& columns,

@@ -2,7 +2,7 @@
 #pragma once
 /// \file measure/measure_series.hpp
 /// What measures remember from row to row of the history: the mean velocity for deceleration and
-/// settling_time, the extreme so far for `keep`.
+/// settling_time, the impulse for force, the extreme so far for `keep`.
 #include <limits>
 #include <vector>
 
@@ -16,9 +16,16 @@ struct MeasureSeries {
   double kept_time = std::numeric_limits<double>::quiet_NaN();  ///< when it was reached [s]
 };
 
+/// Kinds whose value comes from samples of several rows.
+bool looks_back(MeasureKind kind);
+
 /// -(|v_n| - |v_n-1|) / (t_n - t_n-1) of the last two samples: the mean deceleration since the last
 /// row; 0 with fewer.
 double deceleration(const MeasureSeries& series);
+
+/// Rise of the samples since the last row, by time: the mean force where they are impulses; 0 with
+/// fewer than two.
+double rise(const MeasureSeries& series);
 
 /// Time from which v stays within 1 % of max |v - v_last| of its last value, linear between
 /// samples; the first time when v never changed; NaN without samples.

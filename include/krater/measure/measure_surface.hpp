@@ -3,6 +3,8 @@
 /// \file measure/measure_surface.hpp
 /// The surface of a body of points on the measuring grid of a scene, and its diameters
 /// (definitions: measure/measures.hpp).
+#include <optional>
+
 #include "krater/measure/measures.hpp"
 #include "krater/measure/volume_fraction.hpp"
 
@@ -12,6 +14,8 @@ namespace krater {
 double node_spacing(const MeasureContext& context);
 bool is_closed(const MeasureContext& context, int axis, int side);
 bool is_symmetry(const MeasureContext& context, int axis, int side);
+/// The side on which a symmetry plane cuts the body, if any.
+std::optional<int> cut_side(const BodyPoints& body, const MeasureContext& context, int axis);
 
 /// What a point fills of its volume: no more than a cell of the measuring grid [m^3]. Beyond that
 /// its neighbours are cells away, and where its volume lies is not known: the point of a gas that

@@ -19,6 +19,9 @@ namespace krater {
 /// Domain, boundaries and point spacing of bodies, as measures see them.
 MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies);
 
+/// The same for a measure, with what its partner gave.
+MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure);
+
 /// What is wanted of points beside position, mass and density.
 struct GatherNeeds {
   bool velocity = false, pieces = false;  ///< pieces: the velocity, and what is rubble
@@ -62,6 +65,9 @@ class Measurements {
   void check(const Simulation& sim) const;
   /// Names and units of the columns of history.
   std::vector<Quantity> titles(const Scene& scene) const;
+  /// Measures by their numbers, without what they remember: of deceleration the mean velocity, of
+  /// force the impulse.
+  std::vector<double> now(const Simulation& sim, const std::vector<int>& measures);
   /// Columns of the next row of history. Remembers it.
   std::vector<Quantity> row(const Simulation& sim);
   /// "measures": value, unit, definition, reference and difference; "fragments": lists of pieces.
@@ -77,6 +83,7 @@ class Measurements {
 
  private:
   std::vector<double> values(const Simulation& sim, bool all);
+  double sample(const Simulation& sim, std::size_t i);  ///< now, without what is remembered
 
   Selections selections_;
   std::vector<MeasureStart> start_;    ///< by measure

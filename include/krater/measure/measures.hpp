@@ -13,7 +13,7 @@
 ///   strain: the width along x, doubled at a symmetry plane. largest_diameter: the largest of those
 ///   at heights a apart from end to end, or from the lower end to a height above it.
 /// - mean_velocity, momentum, kinetic_energy (without the affine part of the velocity field),
-///   internal_energy, mass, failed_mass, mean: sums over the points.
+///   internal_energy, mass, failed_mass, sound_mass, mean: sums over the points.
 /// - maximum, minimum: the quantile of a field that a share of the mass lies beyond.
 /// - removed_mass: mass at the start less mass now; mass_lost: removed and failed.
 /// - deceleration, settling_time: of the mean velocity's history (measure_series.hpp).
@@ -23,6 +23,9 @@
 /// - debris_extent: between the quantiles (1 -+ s)/2 of the mass along an axis, each point reaching
 ///   half its initial spacing. Along r, and across a symmetry plane, twice the quantile s of the
 ///   distance: the cloud and its mirror image. Points, not surface: a cloud fills no cell.
+/// - impulse, force: contact/impulses.hpp; the force is that of the time since the last row.
+/// - angular_momentum, obliquity, yaw, tilt: measure/attitude.hpp.
+/// - bulge: from the original face on a side to the outermost place of the surface there.
 /// - fragments: pieces (measure/pieces.hpp) of at least `least_points` points.
 ///
 /// Height of a diameter. Points in a band about z0 are weighted with the B-spline
@@ -99,6 +102,7 @@ struct MeasureContext {
   /// [axis][0 lower, 1 upper]; the axis r = 0 is a symmetry.
   std::array<std::array<BoundaryKind, 2>, 3> boundary{};
   int points_per_direction = 2;
+  Triple impulse{};  ///< that the measure's partner gave its bodies so far [N s]
 };
 
 /// What a measure remembers of the start of the scene.
@@ -115,7 +119,8 @@ BodyPoints select(const MeasureSelection& selection, const BodyPoints& points,
 double face_position(const MeasureOptions& measure, const BodyPoints& points,
                      const MeasureContext& context);
 
-/// Value in SI of points already selected; of deceleration and settling_time the mean velocity.
+/// Value in SI of points already selected; of deceleration and settling_time the mean velocity, of
+/// force the impulse.
 /// Not a number: nothing to measure. Throws InputError for a field that the points do not carry.
 double evaluate(const MeasureOptions& measure, const BodyPoints& points,
                 const MeasureContext& context, const MeasureStart& start = {});

@@ -12,8 +12,9 @@
 /// - missed: the same, but its velocity never changed;
 /// - ricocheted: it leaves, w_n < -2 tol |w_0|, and all of it is before the face again, or its
 ///   velocity no longer changes;
-/// - stopped: over the last third of the time since v began to change (five looks or more) its mean
-///   of w is below 2 tol |w_0| and none above 0.15 |w_0|: projectile and target may ring;
+/// - stopped: in either half of the last third of the time since v began to change (five looks or
+///   more) the mean of w is below 2 tol |w_0|, and none is above 0.15 |w_0|: projectile and target
+///   may ring, and do not pass each other;
 /// - moving: none of these yet.
 /// Broken up: no piece holds half of the mass; the fate is then that of all of it.
 ///

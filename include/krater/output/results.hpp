@@ -54,10 +54,21 @@ struct Quantity {
   double value = 0;
 };
 
+using TextAttributes = std::vector<std::pair<std::string, std::string>>;
+
 /// A column of a table, as `krater point` writes them: all of one length.
 struct TableColumn {
   std::string name, unit, meaning;
   std::vector<double> values;
+};
+
+/// A series with its own times, beside the rows of the history: `columns` of one length, and what
+/// is to be known of them.
+struct SeriesTable {
+  std::string name;
+  std::vector<TableColumn> columns;
+  TextAttributes texts;
+  std::vector<std::pair<std::string, double>> numbers;
 };
 
 /// Everything needed to continue with the same bits: named blobs, written and read verbatim (NaN
@@ -98,11 +109,9 @@ struct Json {
   static Json of_integer(std::int64_t i);
 };
 
-using TextAttributes = std::vector<std::pair<std::string, std::string>>;
-
 /// Folder of one run: created when the first file is written, so that a scene with errors leaves
 /// nothing behind. Into a folder of an earlier run: a fresh run first removes that run's files
-/// (frames, history, checkpoint, summary) and nothing else; a resumed run keeps them (see
+/// (frames, history, gauges, checkpoint, summary) and nothing else; a resumed run keeps them (see
 /// `continue_from`).
 class ResultsFolder {
  public:
@@ -125,6 +134,8 @@ class ResultsFolder {
   void write_history(
       const std::vector<Quantity>& row);  ///< a line of history.csv; the first column is time
   void write_checkpoint(const Checkpoint& checkpoint);  ///< checkpoint.h5
+  /// gauge_NAME.csv and, with the next flush, the group gauges/NAME of history.h5.
+  void write_gauge(SeriesTable table);
   /// NAME.csv and NAME.h5, whole.
   void write_table(const std::string& name, const std::vector<TableColumn>& columns);
   void write_summary(const Json& summary);                            ///< summary.json

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "krater/contact/options.hpp"
+
 namespace krater {
 
 enum class MeasureKind {
@@ -36,7 +38,15 @@ enum class MeasureKind {
   crater_diameter,
   hole_diameter,
   debris_extent,
-  fragments
+  fragments,
+  impulse,
+  force,
+  angular_momentum,
+  obliquity,
+  yaw,
+  tilt,
+  sound_mass,
+  bulge
 };
 
 struct MeasureKindInfo {
@@ -47,6 +57,7 @@ struct MeasureKindInfo {
   bool selects;      ///< takes `piece`, `least_points`, `region`
   bool whole;       ///< of the largest piece unless told otherwise: splinters would hide the answer
   bool round;       ///< needs a body of revolution or 3d: impossible in plane strain
+  bool turns;       ///< needs what may turn: impossible about an axis
   bool in_history;  ///< cheap enough for every row of history unless told otherwise
   const char* meaning;
 };
@@ -77,16 +88,18 @@ struct MeasureOptions {
   std::string name, where;
   MeasureKind kind = MeasureKind::extent;
   MeasureSelection selection;
-  int axis = -1;             ///< grid axis; of kinds with a face: its normal
-  double at = 0;             ///< diameter: position on the last axis [m] ...
-  bool at_from_end = false;  ///< ... counted from the body's lower end at the time of measuring
-  std::string field;         ///< mean, maximum, minimum: field name
-  int target = -1;           ///< penetration_depth: body with the face
-  int side = -1;             ///< of the face: 0 lower, 1 upper
-  double level = 0;          ///< crater_diameter: below the original face [m]; largest_diameter:
-                             ///< heights up to this from the body's lower end, 0: all
-  double mass_share = 1;     ///< debris_extent: that it holds; maximum, minimum: beyond the value
-  Keep keep = Keep::now;     ///< value: at the time of measuring, or the extreme so far
+  int axis = -1;              ///< grid axis; of kinds with a face: its normal
+  Triple direction{};         ///< where axis is -1: a unit vector along the grid axes
+  double at = 0;              ///< diameter: position on the last axis [m] ...
+  bool at_from_end = false;   ///< ... counted from the body's lower end at the time of measuring
+  std::string field;          ///< mean, maximum, minimum: field name
+  int target = -1;            ///< penetration_depth: body with the face
+  int side = -1;              ///< of the face: 0 lower, 1 upper
+  std::optional<Partner> by;  ///< impulse, force: who pushes
+  double level = 0;           ///< crater_diameter: below the original face [m]; largest_diameter:
+                              ///< heights up to this from the body's lower end, 0: all
+  double mass_share = 1;      ///< debris_extent: that it holds; maximum, minimum: beyond the value
+  Keep keep = Keep::now;      ///< value: at the time of measuring, or the extreme so far
   bool in_history = true;
   std::optional<double> reference;  ///< SI
   std::string reference_source;
@@ -94,6 +107,9 @@ struct MeasureOptions {
 
 /// A field of frames that no point carries: the number of its piece, made when asked for.
 inline constexpr const char* kFragmentField = "fragment";
+
+/// Of the axis, or oblique: a unit vector along the grid axes.
+Triple direction_of(const MeasureOptions& measure);
 
 /// SI unit of its value.
 const char* unit_of(const MeasureOptions& measure);

@@ -70,6 +70,8 @@ class Simulation {
   const RigidBodies& rigid() const { return rigid_; }
   const MpmStep& stepper() const { return *step_; }
   const Audit& audit() const { return audit_; }
+  /// On bodies together by a partner that a measure of the scene names, so far [N s].
+  Triple impulse(const std::vector<int>& bodies, Partner by) const;
   /// Throws NumericalError when more energy is unphysical than the scene allows. `last`: the run
   /// ends.
   void judge_energy(bool last) const;
@@ -113,7 +115,10 @@ class Simulation {
   void save_body(int body, Checkpoint& out) const;
   void restore_body(int body, const Checkpoint& checkpoint);
   void choose_first_step();
-  void apply_body_force();
+  Triple apply_body_force();  ///< on the points [N]
+  void watch_impulses();
+  std::string impulse_name(const ImpulsePair& pair) const;
+  std::vector<FieldId> fields_of(const std::vector<int>& bodies) const;
   bool walls_act_on_points() const;
   std::array<double, 3> apply_point_walls(double dt);  ///< force on the points [N]
   double next_step(double until);
@@ -136,6 +141,7 @@ class Simulation {
   EnergyWatch energy_watch_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
   Audit audit_;
+  Impulses impulses_;
   std::unique_ptr<NodeLoads> loads_;
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;

@@ -63,7 +63,7 @@ void reflect(Patch& patch, const PointColumns& c, const GridGeometry& geometry,
     sign[k] = -1;
     double& v = patch.points.at(c.velocity + kLanes * a, i);
     const double image = 2 * plane.velocity[k] - v;
-    removed.side_impulse[k] += m * (image - v);
+    removed.side_impulse[static_cast<unsigned>(2 * axis + side)][k] += m * (image - v);
     removed.side_work += 0.5 * m * (image * image - v * v);
     v = image;
   }

@@ -48,6 +48,7 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
       position_as_velocity_{parts.bodies},
       audit_{parts.audit},
       loads_{parts.loads},
+      impulses_{parts.impulses},
       energy_watch_{parts.boundary},
       loaded_{parts.loads.any() ||
               std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
@@ -72,6 +73,7 @@ PointStore& MpmStep::change(int s) {
 double MpmStep::force(double dt) {
   watch_.start();
   audit_.step_external = 0;  // of the question before, if there was one
+  external_impulse_ = {};
   if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
   if (method_.reference != Reference::current) measure_gaps();
   if (loads_.any()) loads_.collect(plain_, settings(dt), [this] { return scratch(); });
@@ -85,6 +87,7 @@ void MpmStep::meet(double dt) {
   if (method_.transfer == Transfer::xpic) note_forces();
   if (loads_.any()) loads_.drive(dt);
   constraints_ = constrain();
+  if (impulses_.any()) note_impulses();
   if (loads_.any()) book_loads(dt);
   account_folds(dt);
   if (method_.transfer == Transfer::xpic) {
@@ -93,13 +96,6 @@ void MpmStep::meet(double dt) {
     write_node_work();
   }
   watch_energy();
-}
-
-void MpmStep::book_loads(double dt) {
-  const LoadWork work = loads_.work(dt);
-  audit_.load_work += work.faces;
-  audit_.damping_work += work.damping;
-  audit_.step_external += work.faces + work.damping;
 }
 
 void MpmStep::move(double dt) {
@@ -160,7 +156,7 @@ void MpmStep::book() {
   audit_.wall_work += c.walls.work;
   audit_.friction_work += c.contact.friction;
   audit_.contact_pairs = c.contact.nodes;
-  for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += c.walls.impulse[a];
+  book_impulses();
   audit_.wall_columns = c.walls.columns_in_contact;
 }
 
@@ -383,6 +379,7 @@ void MpmStep::migrate() {
     audit_.book_removed(removed_[p]);
     if (removed_[p].count > 0 && feels_no_energy(p)) audit_.unfelt_removed += removed_[p].internal;
   }
+  if (impulses_.any()) note_put_back();
   const std::vector<int> losing = rigid_losses();
   bool changed = deliver(grid_, bodies_);
   for (const int b : losing)  // what is left moves on as it did

@@ -8,7 +8,10 @@ namespace krater {
 // external.
 void MpmStep::begin_rigid(double dt, double& kinetic) {
   if (!rigid_.any()) return;
+  const Triple before = rigid_.momentum();
   const double work = rigid_.begin(dt);
+  const Triple now = rigid_.momentum();
+  for (std::size_t a = 0; a < 3; ++a) external_impulse_[a] += now[a] - before[a];
   kinetic += work;
   audit_.step_external += work;
 }

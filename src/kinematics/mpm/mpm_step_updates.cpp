@@ -25,6 +25,7 @@ void MpmStep::strain_last_motion() {
   constrain(true);
   grid_to_particles(GatherPart::strain_only, dt);
   audit_.step_external = 0;
+  external_impulse_ = {};
   rigid_.rewind();
 }
 

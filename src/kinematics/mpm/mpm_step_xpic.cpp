@@ -25,6 +25,7 @@ void MpmStep::filter_velocity(std::array<double, 3>& impulse) {
     double unused = 0;
     momentum(unused, 0);
     const BoundaryWork term = boundary_.constrain();
+    impulses_.add(boundary_.given(), -1);
     boundary_.mirror();
     const BoundaryWork folds = boundary_.folded(0, 0);
     for (std::size_t a = 0; a < 3; ++a) impulse[a] -= term.impulse[a] + folds.impulse[a];

@@ -193,12 +193,18 @@ LoadWork NodeLoads::work(double dt) const {
         const double mean = node[moved::velocity + a] - 0.5 * node[moved::change + a];
         parts[b].faces += force[kForces * n + a] * mean;
         parts[b].damping += force[kForces * n + 3 + a] * mean;
+        parts[b].face_impulse[static_cast<unsigned>(a)] += force[kForces * n + a];
+        parts[b].damping_impulse[static_cast<unsigned>(a)] += force[kForces * n + 3 + a];
       }
   });
   LoadWork sum;
   for (const LoadWork& part : parts) {
     sum.faces += dt * part.faces;
     sum.damping += dt * part.damping;
+    for (std::size_t a = 0; a < 3; ++a) {
+      sum.face_impulse[a] += dt * part.face_impulse[a];
+      sum.damping_impulse[a] += dt * part.damping_impulse[a];
+    }
   }
   return sum;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <string_view>
 
 #include "scene/readers/readers.hpp"
 
@@ -51,6 +52,40 @@ void read_fields(Block& block, GaugeOptions& gauge, Reading& reading) {
   block.record("fields", *node);
 }
 
+/// `measures: [push, push_rate]`: of the scene's measures block.
+void read_measured(const Node& node, GaugeOptions& gauge, Reading& reading) {
+  constexpr std::string_view kRate = "_rate";
+  const std::vector<MeasureOptions>& measures = reading.scene.measures;
+  if (node.kind != Node::Kind::list || node.items.empty())
+    return reading.problems.add(node.file, node.line, node.path,
+                                "expected a list of the scene's measures, as [push, depth_rate]");
+  std::vector<std::string> known;
+  for (const MeasureOptions& m : measures) known.push_back(m.name);
+  for (const Node& item : node.items) {
+    const auto word = read_word(item, reading.problems);
+    if (!word) continue;
+    const auto find = [&](std::string_view name) {
+      return std::find_if(measures.begin(), measures.end(),
+                          [&](const MeasureOptions& m) { return m.name == name; });
+    };
+    auto at = find(*word);
+    const bool rate = at == measures.end() && word->ends_with(kRate);
+    if (rate) at = find(std::string_view{*word}.substr(0, word->size() - kRate.size()));
+    const auto complain = [&](const std::string& text) {
+      reading.problems.add(item.file, item.line, item.path, text);
+    };
+    if (at == measures.end()) {
+      report_unknown(item, "measure", *word, known, reading.problems);
+    } else if (at->kind == MeasureKind::settling_time) {
+      complain(at->name + " looks at the whole history: no gauge can record it");
+    } else if (rate && (at->kind == MeasureKind::force || at->kind == MeasureKind::deceleration)) {
+      complain(at->name + " is a rate already: record it without _rate");
+    }
+    gauge.fields.push_back(*word);
+    gauge.measures.push_back(static_cast<int>(at - measures.begin()));
+  }
+}
+
 /// `{butterworth: 1 MHz}`, `{cfc: 1000}` or `{moving_mean: 2 us}`.
 void read_filter(const Node& node, GaugeOptions& gauge, Reading& reading) {
   const std::optional<Choice> choice = read_choice(node, "filter", reading.problems);
@@ -81,18 +116,28 @@ void read_filter(const Node& node, GaugeOptions& gauge, Reading& reading) {
                              number_text(0.25 / gauge.frequency) + " or less");
 }
 
-Node read_gauge(const Node& node, Reading& reading) {
-  GaugeOptions gauge;
-  gauge.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
-  gauge.where = block.place().where();
-  if (const Node* body = block.require("body", "the body whose points it reads")) {
+void read_points(Block& block, GaugeOptions& gauge, Reading& reading) {
+  const Node* body = block.require("body", "the body whose points it reads; or measures: [...]");
+  if (body) {
     gauge.body = read_body_name(*body, reading);
     block.record("body", *body);
   }
   gauge.fixed = block.flag("fixed", false);
   read_places(block, gauge, reading);
   read_fields(block, gauge, reading);
+}
+
+Node read_gauge(const Node& node, Reading& reading) {
+  GaugeOptions gauge;
+  gauge.name = node.key;
+  Block block{&node, node.path, node, reading.problems};
+  gauge.where = block.place().where();
+  if (const Node* measures = block.find("measures")) {
+    read_measured(*measures, gauge, reading);
+    block.record("measures", *measures);
+  } else {
+    read_points(block, gauge, reading);
+  }
   gauge.every = block.number(
       {"every", "s", Range::positive, reading.scene.time.end / kSamples, "time between samples"});
   if (const Node* filter = block.find("filter")) {

@@ -101,6 +101,10 @@ void check_alone(const Node& place, Reading& reading) {
     fail("knows the current configuration only: leave out method.reference");
   if (scene.body_force || scene.loads.any())
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
+  for (const MeasureOptions& measure : scene.measures)
+    if (measure.by)
+      fail("has no measures of what one partner did to a body (" + measure.name +
+           "): wall_impulse of the history is that of all sides");
   for (const auto& axis : scene.grid.boundary)
     for (const Boundary& side : axis)
       if (side.drives())

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
+#include "scene/readers/read_axes.hpp"
 #include "scene/readers/readers.hpp"
 
 namespace krater::scene {
@@ -89,47 +89,58 @@ void read_mass_share(Block& block, MeasureOptions& measure) {
   if (extent && measure.mass_share == 0) block.fail("mass_share must be positive");
 }
 
-/// The grid axis of a word, -1: none. In the half section the first axis is called r or x, so that
-/// one scene serves both 2D frames.
-int axis_of(Frame frame, std::string_view word) {
-  if (dimension(frame) == 2 && (word == "x" || word == "r")) return 0;
-  return axis_from_name(frame, word).value_or(-1);
-}
-
-std::vector<std::string> axis_names(Frame frame) {
-  std::vector<std::string> axes;
-  for (int axis = 0; axis < dimension(frame); ++axis) axes.emplace_back(axis_name(frame, axis));
-  return axes;
-}
-
-constexpr std::array<const char*, 2> kSides{"_min", "_max"};
-
-/// "z_max" -> axis and side; axis -1: none.
-std::pair<int, int> side_of(Frame frame, std::string_view word) {
-  for (int side = 0; side < 2; ++side)
-    if (word.ends_with(kSides[static_cast<std::size_t>(side)]))
-      return {axis_of(frame, word.substr(0, word.size() - 4)), side};
-  return {-1, 0};
-}
-
-std::string side_name(Frame frame, int axis, int side) {
-  return std::string{axis_name(frame, axis)} + kSides[static_cast<std::size_t>(side)];
-}
-
-int read_axis(Block& block, Reading& reading) {
-  const Frame frame = reading.scene.frame;
-  const std::vector<std::string> axes = axis_names(frame);
-  const Node* node = block.require("axis", "one of " + join(axes));
-  if (!node) return -1;
-  const std::optional<std::string> word = read_word(*node, reading.problems);
-  if (!word) return -1;
-  const int axis = axis_of(frame, *word);
-  if (axis < 0) {
-    report_unknown(*node, "axis", *word, axes, reading.problems);
-    return -1;
+/// `axis: z`, or any line: `axis: [1, 0, -1]`.
+void read_direction(Block& block, MeasureOptions& measure, Reading& reading) {
+  const Node* node = block.find("axis");
+  if (!node || node->kind != Node::Kind::list) {
+    measure.axis = read_axis(block, reading);
+    return;
   }
-  block.record("axis", string_node(std::string{axis_name(frame, axis)}));
-  return axis;
+  const std::optional<Triple> given = read_vector(*node, "1", reading);
+  if (!given) return;
+  const double length = std::hypot((*given)[0], (*given)[1], (*given)[2]);
+  if (!(length > 0)) return block.fail(*node, "a direction needs a length");
+  for (std::size_t a = 0; a < 3; ++a) measure.direction[a] = (*given)[a] / length;
+  block.record("axis", vector_node(reading.scene.frame, measure.direction));
+}
+
+/// `by: plate` or `by: z_min`: a body in contact, or a side of the domain that pushes.
+void read_partner(Block& block, MeasureOptions& measure, Reading& reading) {
+  const Scene& scene = reading.scene;
+  std::vector<std::string> known;
+  for (std::size_t b = 0; b < scene.bodies.size() && scene.contact.active; ++b)
+    known.push_back(scene.bodies[b].name);
+  for (int axis = 0; axis < dimension(scene.frame); ++axis)
+    for (int side = 0; side < 2; ++side)
+      if (scene.grid.boundary[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)]
+              .pushes())
+        known.push_back(side_name(scene.frame, axis, side));
+  const Node* node = block.require("by", "who pushes: a body in contact, or a wall or driven side");
+  const std::optional<std::string> word = node ? read_word(*node, reading.problems) : std::nullopt;
+  if (!word) return;
+  if (std::find(known.begin(), known.end(), *word) == known.end())
+    return block.fail(*node, quote(*word) +
+                                 " pushes nobody here: known are bodies where the scene "
+                                 "has contact:, and sides that are a wall or driven (" +
+                                 (known.empty() ? "none" : join(known)) + ")");
+  const auto [axis, side] = side_of(scene.frame, *word);
+  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                 [&](const BodyOptions& b) { return b.name == *word; });
+  const int number = static_cast<int>(body - scene.bodies.begin());
+  const bool is_body = scene.contact.active && body != scene.bodies.end();
+  measure.by = is_body ? Partner{Partner::Kind::body, number} : Partner::side(axis, side);
+  block.record("by", string_node(*word));
+  const std::vector<int>& on = measure.selection.bodies;
+  if (is_body && std::find(on.begin(), on.end(), number) != on.end())
+    block.fail(*node, "a body gives itself no impulse: by must be another one");
+  if (!is_body && !scene.contact.active && on.size() != scene.bodies.size())
+    block.fail(*node,
+               "without contact: all bodies share one velocity field, and what a side gives "
+               "them cannot be told apart: list all of them as body");
+  if (!is_body && scene.method.reference != Reference::current)
+    block.fail(*node,
+               "on a fixed reference configuration walls push points one by one, and their "
+               "impulse is not told apart: use wall_impulse of the history");
 }
 
 /// `face: z_max`: the face whose outward normal is +z.
@@ -213,6 +224,10 @@ bool takes(MeasureKind kind, std::string_view key) {
 void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
   const MeasureKind kind = measure.kind;
   if (takes(kind, "axis")) measure.axis = read_axis(block, reading);
+  if (takes(kind, "direction")) read_direction(block, measure, reading);
+  if (takes(kind, "turn") && reading.scene.frame == Frame::cartesian_3d)
+    read_direction(block, measure, reading);
+  if (takes(kind, "by")) read_partner(block, measure, reading);
   if (takes(kind, "at"))
     read_at(block.require("at", "{z: position} or {from_lower_end: distance}"), measure, block,
             reading);
@@ -254,6 +269,7 @@ Node read_measure(const Node& node, Reading& reading) {
   measure.where = block.place().where();
   std::vector<std::string> names;
   for (const MeasureKindInfo& kind : measure_kinds()) names.emplace_back(kind.name);
+  if (measure.name == "gauges") block.fail("the history keeps its gauges under this name");
   const std::string kind = required_word(block, "kind", "kind", names, join(names));
   if (kind.empty()) {
     reading.scene.measures.push_back(std::move(measure));  // references may name it
@@ -264,6 +280,9 @@ Node read_measure(const Node& node, Reading& reading) {
   if (info(measure.kind).round && reading.scene.frame == Frame::plane_strain)
     block.fail(kind +
                " is not defined in plane_strain, where a hole is a slot; use axisymmetric or 3d");
+  if (info(measure.kind).turns && reading.scene.frame == Frame::axisymmetric)
+    block.fail(kind +
+               " is nothing about the axis of the axisymmetric frame; use plane_strain or 3d");
   measure.selection.bodies = read_bodies(block, reading);
   read_keys(block, measure, reading);
   read_selection(block, measure, reading);
@@ -274,41 +293,6 @@ Node read_measure(const Node& node, Reading& reading) {
 }
 
 }  // namespace
-
-void read_bounds(Block& block, std::array<std::array<double, 2>, 3>& region, Reading& reading) {
-  const Frame frame = reading.scene.frame;
-  for (const char* name : {"r", "x", "y", "z"}) {
-    const int axis = axis_of(frame, name);
-    if (axis < 0) continue;
-    for (int side = 0; side < 2; ++side) {
-      const std::string key = name + std::string{kSides[static_cast<std::size_t>(side)]};
-      const ParameterInfo bound{key.c_str(), "m", Range::any, kRequired, "bound of the region"};
-      const std::optional<double> value = block.optional_number(bound);
-      if (!value) continue;
-      auto& bounds = region[static_cast<std::size_t>(axis)];
-      double& mine = bounds[static_cast<std::size_t>(side)];
-      if (std::isfinite(mine)) block.fail("r and x are the same axis in this frame; give one");
-      mine = *value;
-      block.record(side_name(frame, axis, side), number_node(*value));
-      if (!(bounds[0] < bounds[1]))
-        block.fail("the region is empty: " + side_name(frame, axis, 1) + " must lie beyond " +
-                   side_name(frame, axis, 0));
-    }
-  }
-  if (region == MeasureSelection{}.region) block.fail("give at least one bound, z_min, ...");
-}
-
-std::pair<int, int> read_face_name(const Node& node, Reading& reading) {
-  const Frame frame = reading.scene.frame;
-  const std::optional<std::string> word = read_word(node, reading.problems);
-  if (!word) return {-1, 0};
-  const auto face = side_of(frame, *word);
-  std::vector<std::string> faces;
-  for (int axis = 0; axis < dimension(frame); ++axis)
-    for (int side = 0; side < 2; ++side) faces.push_back(side_name(frame, axis, side));
-  if (face.first < 0) report_unknown(node, "face", *word, faces, reading.problems);
-  return face;
-}
 
 Node read_measures(const Node* node, Reading& reading) {
   Node resolved;

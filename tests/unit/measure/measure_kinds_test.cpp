@@ -42,7 +42,7 @@ BodyPoints two_points() {
 TEST_SUITE("unit") {
   TEST_CASE("measure kinds: the registry is in order, complete and documented with its units") {
     const auto& kinds = measure_kinds();
-    REQUIRE(kinds.size() == static_cast<std::size_t>(MeasureKind::fragments) + 1);
+    REQUIRE(kinds.size() == static_cast<std::size_t>(MeasureKind::bulge) + 1);
     std::ifstream stream(std::string{KRATER_SOURCE_DIR} + "/src/output/README.md");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     for (std::size_t i = 0; i < kinds.size(); ++i) {
@@ -74,6 +74,54 @@ TEST_SUITE("unit") {
     CHECK(evaluate(of_kind(MeasureKind::mass_lost), BodyPoints{}, context, {.mass = 6}) == 6);
     body.scalars.erase("internal_energy");
     CHECK_THROWS_AS(evaluate(of_kind(MeasureKind::internal_energy), body, context), InputError);
+  }
+
+  TEST_CASE("measure kinds: how a rod flies in 3d, whole and cut by a plane of symmetry") {
+    MeasureContext context =
+        measuring_domain(Frame::cartesian_3d, h, {0, 0, 0}, {30 * h, 30 * h, 30 * h});
+    BodyPoints rod = lattice_points(context, {6 * h, 0, 10 * h}, {22 * h, 4 * h, 14 * h},
+                                    [](const Triple&) { return true; });
+    for (std::size_t p = 0; p < rod.count(); ++p)  // turns about y through its middle
+      rod.v.at(p) = {30 + 2 * (rod.x[p][2] - 12 * h), 0, 40 - 2 * (rod.x[p][0] - 14 * h)};
+    MeasureOptions line = of_kind(MeasureKind::obliquity, 2);
+    CHECK(evaluate(line, rod, context) == doctest::Approx(std::atan2(3, 4)));
+    CHECK(evaluate(of_kind(MeasureKind::yaw), rod, context) ==
+          doctest::Approx(std::atan2(4, 3)).epsilon(1e-6));
+    line = of_kind(MeasureKind::tilt);
+    line.direction = {std::sqrt(0.5), 0, std::sqrt(0.5)};
+    CHECK(evaluate(line, rod, context) == doctest::Approx(std::atan2(1, 1)).epsilon(1e-6));
+    line.kind = MeasureKind::momentum;
+    const double mass = evaluate(of_kind(MeasureKind::mass), rod, context);
+    CHECK(evaluate(line, rod, context) == doctest::Approx(mass * 70 * std::sqrt(0.5)));
+    const double spin = evaluate(of_kind(MeasureKind::angular_momentum, 1), rod, context);
+    CHECK(spin == doctest::Approx(2 * mass * (256 + 16) * h * h / 12).epsilon(0.02));
+    context.boundary[1][0] = BoundaryKind::symmetry;
+    CHECK(evaluate(of_kind(MeasureKind::yaw), rod, context) ==
+          doctest::Approx(std::atan2(4, 3)).epsilon(1e-6));
+    const BodyPoints cube = lattice_points(context, {6 * h, 6 * h, 6 * h}, {14 * h, 14 * h, 14 * h},
+                                           [](const Triple&) { return true; });
+    CHECK(std::isnan(evaluate(of_kind(MeasureKind::tilt, 2), cube, context)));
+  }
+
+  TEST_CASE("measure kinds: sound mass, bulge, impulse along a line") {
+    MeasureContext context =
+        measuring_domain(Frame::axisymmetric, h, {0, -20 * h}, {20 * h, 20 * h});
+    BodyPoints plate =
+        lattice_points(context, {0, -5 * h}, {12 * h, 5 * h}, [](const Triple&) { return true; });
+    plate.scalars["failed"].assign(plate.count(), 0);
+    plate.scalars["failed"].front() = 1;
+    CHECK(
+        evaluate(of_kind(MeasureKind::sound_mass), plate, context) ==
+        doctest::Approx(evaluate(of_kind(MeasureKind::mass), plate, context) - plate.mass.front()));
+    MeasureOptions bulge = of_kind(MeasureKind::bulge, 1);
+    bulge.side = 0;
+    const MeasureStart start{.face = face_position(bulge, plate, context)};
+    for (std::size_t p = 0; p < plate.count(); ++p) plate.x[p][1] -= 3 * h;
+    CHECK(std::abs(evaluate(bulge, plate, context, start) - 3 * h) < 0.02 * h);
+    context.impulse = {1, 2, 0};
+    MeasureOptions impulse = of_kind(MeasureKind::impulse);
+    impulse.direction = {0.6, 0.8, 0};
+    CHECK(evaluate(impulse, BodyPoints{}, context) == doctest::Approx(2.2));
   }
 
   TEST_CASE("measure kinds: penetration depth counts from the target's face, into the target") {

@@ -2,6 +2,8 @@
 // The words for what became of a projectile, on made-up points and series.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "krater/measure/outcome.hpp"
 #include "unit/measure/point_sets_support.hpp"
 
@@ -79,4 +81,20 @@ TEST_CASE("outcome: quiet for a quarter of the time of the change, and not befor
   CHECK(settled(looks(11.25), start(), 0.01));
   CHECK(settling_of(looks(12), start(), 0.01).since == doctest::Approx(9));
   CHECK(settling_of(looks(12), start(), 0.01).drift == doctest::Approx(0));
+}
+
+TEST_CASE("outcome: a plate that bounces off is not at rest while it turns round") {
+  const auto looks = [](double end, double last) {  // -10, then steadily to `last` at 12
+    std::vector<OutcomeLook> out;
+    for (double t = 0; t <= end + 1e-9; t += 0.25) {
+      const double w = t < 1   ? -10
+                       : t < 4 ? -10 + 3 * (t - 1)
+                               : std::min(last, -1 + 0.25 * (t - 4));
+      out.push_back({t, {0, w, 0}, {0, w, 0}, 0});
+    }
+    return out;
+  };
+  for (double end = 8; end < 14; end += 0.25)
+    CHECK_FALSE(settling_of(looks(end, 1), start(), 0.01).stopped);
+  CHECK(settling_of(looks(30, 0), start(), 0.01).stopped);
 }

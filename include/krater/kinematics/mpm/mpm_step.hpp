@@ -54,6 +54,7 @@ class MpmStep final : public Kinematics {
     const std::vector<BodyKernelData>& bodies;
     Audit& audit;
     NodeLoads& loads;
+    Impulses& impulses;
   };
   MpmStep(const MethodOptions& method, const Parts& parts);
 
@@ -101,6 +102,9 @@ class MpmStep final : public Kinematics {
   void move_rigid(std::size_t patch, const SweepScratch& w);
   std::vector<int> rigid_losses() const;
   void book_loads(double dt);
+  void book_impulses();
+  void note_impulses();
+  void note_put_back();
   void write_node_work();
   void book();
   void halve_until_safe(double& dt, double max_change);
@@ -159,9 +163,11 @@ class MpmStep final : public Kinematics {
 
   Audit& audit_;
   NodeLoads& loads_;
+  Impulses& impulses_;
   EnergyWatch energy_watch_;
-  double grid_kinetic_ = 0;  ///< of the step under way, as are the next two
+  double grid_kinetic_ = 0;  ///< of the step under way, as are the next three
   Constraints constraints_;
+  Triple external_impulse_{};
   bool loaded_;  ///< body forces or loads act
   Audit::StepHeat heat_;
   Stopwatch<phase_names.size()> watch_;

@@ -21,7 +21,8 @@
 ///
 /// Work. The ledger counts every change of a node's velocity with vbar = v+ - dv/2, so that of a
 /// load is dt sum f_i . vbar_i, whatever contact and sides did after it; kinetic + internal - work
-/// stays constant to round-off.
+/// stays constant to round-off. Its impulse is dt sum f_i of all nodes; what planes of symmetry
+/// fold of it is theirs.
 #include <functional>
 
 #include "krater/contact/boundary.hpp"
@@ -40,9 +41,10 @@ struct LoadColumns {
   int share = -1, unit = -1;
 };
 
-/// Works of one step [J].
+/// Works [J] and impulses [N s] of one step.
 struct LoadWork {
   double faces = 0, damping = 0;
+  Triple face_impulse{}, damping_impulse{};
 };
 
 class NodeLoads {
