@@ -10,7 +10,7 @@ import numpy as np
 import pictures
 from answer import Answer, Picture, Table, failed_sentences, number, percent, reference_of, scaled, with_band
 from members import member, text_of
-from uncertainty import estimate, power_law, validation
+from uncertainty import estimate, levels_of, power_law, validation
 
 CELL = "grid.cell"
 SHIFTS = (0.0, -0.04, 0.04, -0.02, 0.02, -0.03, 0.03, -0.01, 0.01)
@@ -100,6 +100,8 @@ class Convergence:
         if found.behaviour in ("wavers", "is noisy", "changes more and more"):
             yield (f"{name} {found.behaviour} with the cell: it has no order, and its band is the spread that was seen. These "
                    "cells do not answer the question better than that.")
+        if len(levels_of(np.array(curve["cells"]))) == 2:
+            yield f"{name}: two cells show no order, and may agree by accident: a third would tell."
         if curve["reference"]:
             value, half, source = curve["reference"]
             said = validation(found, value, half or 0.0)
