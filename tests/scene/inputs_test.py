@@ -16,6 +16,7 @@ SCENES = {
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
     "copper_spall": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.1 us", "coarse": "0.02 mm"},
     "copper_bar": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.8 mm"},
+    "copper_bar_elements": {"frames": ("axisymmetric", "plane_strain"), "end": "1 us", "coarse": None},
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
