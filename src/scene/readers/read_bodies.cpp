@@ -136,7 +136,9 @@ Node read_body(const Node& node, Reading& reading) {
     block.record("kinematics", read_kinematics(*kinematics, body, reading));
   body.thin_allowed =
       block.choice<bool>("thin", {{"refused", false}, {"allowed", true}}, body.thin_allowed);
-  block.record("points", read_points(block.find("points"), block, body.points, reading));
+  const Node* points = block.find("points");
+  Node resolved_points = read_points(points, block, body.points, reading);
+  if (!body.mesh || points != nullptr) block.record("points", resolved_points);
   if (const Node* losers = block.find("wins_over")) block.record("wins_over", *losers);
   Node resolved = block.finish();
   reading.scene.bodies.push_back(std::move(body));
