@@ -34,6 +34,22 @@ struct Commands {
   const CLI::App &run, &check, &point, &study;
 };
 
+/// `krater run --accuracy`: the same run at several cells.
+std::vector<std::string> words_of_accuracy(const RunOptions& options) {
+  if (!options.restart.empty())
+    throw InputError(
+        "--restart: a run to an accuracy goes on by itself from what lies in its folder");
+  std::vector<std::string> words{"accuracy", options.scene, options.accuracy};
+  const auto add = [&words](const char* key, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {key, value});
+  };
+  add("--budget", options.budget);
+  add("-o", options.output);
+  if (options.threads > 0) add("-j", std::to_string(options.threads));
+  for (const std::string& setting : options.overrides) add("--set", setting);
+  return words;
+}
+
 std::vector<std::string> words_of_study(const CLI::App& command) {
   std::vector<std::string> words{"study"};
   for (const std::string& word : command.remaining()) words.push_back(word);
@@ -43,6 +59,7 @@ std::vector<std::string> words_of_study(const CLI::App& command) {
 int dispatch(const Commands& commands, const RunOptions& options, const std::string& model) {
   try {
     if (commands.study.parsed()) return become_study(words_of_study(commands.study));
+    if (!options.accuracy.empty()) return become_study(words_of_accuracy(options));
     if (commands.run.parsed()) return run(options);
     if (commands.check.parsed())
       print_check(options);
@@ -107,6 +124,12 @@ int command_line(int argc, char** argv) {
   run_command->add_flag("--quiet", options.quiet,
                         "no progress, no notes; warnings at the end only");
   run_command->add_flag("--strict", options.strict, "exit code 5 when the run ends with warnings");
+  CLI::Option* accuracy = run_command->add_option(
+      "--accuracy", options.accuracy,
+      "run coarse, then finer cells until every measure is known so well, as 2%");
+  run_command
+      ->add_option("--budget", options.budget, "wall time for --accuracy, as 20min (the default)")
+      ->needs(accuracy);
   CLI::App* check_command =
       app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
   add_scene_options(check_command, options);

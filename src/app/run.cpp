@@ -12,6 +12,7 @@
 #include "app/signals.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
+#include "krater/app/known_error.hpp"
 #include "krater/app/machine.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/schedule.hpp"
@@ -353,11 +354,15 @@ int Runner::finish(const std::string& status, const std::string& message, int co
                    const Progress& progress) {
   Json s = summary(status, progress.seconds());
   if (!message.empty()) s["message"] = Json::of(message);
+  const std::vector<std::string> errors =
+      add_known_errors({options_.scene, results_.path(), scene_.grid.cell, progress.seconds()}, s);
   results_.write_summary(s);
   gauges_.write(results_);
   results_.flush();
   for (const std::string& line : outcomes_.sentences()) tell(line);
   for (const std::string& line : gauges_.sentences()) tell(line);
+  if (code == kDone)
+    for (const std::string& line : errors) tell(line);
   if (outcomes_.answered())
     tell(fmt::format("stopped at {:.4g} s of {:.4g} s: {}", sim_.time(), scene_.time.end,
                      outcomes_.answer()));

@@ -139,9 +139,9 @@ def failing_member():
 
 
 def budget():
-    write("dear.yaml", convergence("[1 mm, 0.5 mm, 0.02 mm]"))
-    done = study("dear", "", "--budget", "2s")
-    check(done.returncode == 4 and "left (cell=0.02mm)" in done.stderr, "a budget ends cleanly, says what is left", done.text)
+    write("dear.yaml", convergence("[1 mm, 0.5 mm, 0.005 mm]"))
+    done = study("dear", "", "--budget", "20s")
+    check(done.returncode == 4 and "left (cell=0.005mm)" in done.stderr, "a budget ends cleanly, says what is left", done.text)
     check(len([1 for row in answer("dear")["members"] if row["status"] == "done"]) == 2, "what fits is answered with")
     check("were not run" in done.stdout or "left" in done.stdout or "interrupted" in done.stdout, "the answer says so")
     done = study("poor", convergence("[0.002 mm, 0.001 mm]"), "--budget", "0.1 s")
@@ -205,6 +205,38 @@ def limit():
     check(said["fit"] and low - 60 < said["fit"]["limit"] < high + 60, "and fitted", said.get("fit"))
 
 
+def to_an_accuracy():
+    """krater run --accuracy: met, not to be had, refused; and what a plain run then knows of itself."""
+    plain = write("plain.yaml", SCENE)
+    done = krater("run", plain, "--accuracy", "3%", "-j", 2)
+    told = json.loads(pathlib.Path("plain_out/summary.json").read_text(encoding="utf-8"))
+    one = told["measures"]["velocity"]
+    check(done.returncode == 0 and told["accuracy"]["met"] and "gone has no value" in done.text, "3 % is reached", done.text)
+    check(0 < one["uncertainty"] <= 0.03 * abs(one["value"]) and abs(one["value"] + 333.4) <= one["uncertainty"] and
+          one["uncertainty_from"], "with a band that holds the exact velocity", one)
+    cell = told["cell"]
+    shown = subprocess.run([ROOT / "tools/show_summary", "plain_out"], capture_output=True, text=True, check=False).stdout
+    check(re.search(r"velocity +-3\d\d\.?\d* +\d", shown), "show_summary shows it", shown)
+    done = krater("run", plain, "-o", "again_out", "--set", f"grid.cell={cell!r}")
+    check(re.search(r"velocity = -\d+\.?\d* \+- \d.* plain_out", done.text), "a plain run of that cell knows its error", done.text)
+    done = krater("run", plain, "-o", "other_out", "--set", "grid.cell=0.2 mm")
+    check("of other cells" in done.text and "+-" not in done.text, "another cell does not", done.text)
+    done = krater("run", plain, "-o", "other_out", "--set", f"grid.cell={cell!r}", "--set", "time.end=0.9 us")
+    check("another state" in done.text and "velocity =" not in done.text, "nor another state of the scene", done.text)
+    os.mkdir("elsewhere")
+    done = krater("run", "plain.yaml", "-o", "elsewhere/out", "--set", "grid.cell=1 mm", "--quiet")
+    check("uncertainty" not in done.text, "--quiet says nothing of it", done.text)
+    done = krater("run", plain, "--accuracy", "0.1%", "--budget", "1s", "-o", "poor_out")
+    check(done.returncode == 5 and re.search("is not known to 0.1 %: ([0-9.]+ %|nothing) can be had at", done.stdout),
+          "what cannot be had is said, and what can", done.text)
+    for words, what in ((("--accuracy", "0"), "no number of runs has no error"), (("--accuracy", "two"), "as 2%"),
+                        (("--budget", "1s"), "--accuracy"), (("--accuracy", "2%", "--budget", "soon"), "as 20min"),
+                        (("--accuracy", "2%", "--restart", "x.h5"), "goes on by itself"),
+                        (("--accuracy", "2%", "--set", "grid.box=1"), "grid.box")):
+        done = krater("run", plain, *words)
+        check(done.returncode == 2 and what in done.text, f"refused: {' '.join(words)}", done.text)
+
+
 def examples():
     """Those of inputs/studies as they are, but coarse."""
     toy = {"convergence": ("[1.524 mm, 0.762 mm, 0.381 mm, 0.1905 mm]", "[3 mm, 1.5 mm]"), "pareto": ("2, 3", "2"),
@@ -231,5 +263,6 @@ with Folder():
     queue()
     bad_input()
     limit()
+    to_an_accuracy()
     examples()
 finish()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Command line of `krater study` and `krater run --accuracy`. Exit codes are krater's: 0 done, 2 bad input, 3 nothing to
-answer with, 4 stopped before its end (the same command goes on)."""
+answer with, 4 stopped before its end (the same command goes on), 5 an accuracy that was not reached."""
 
 import argparse
 import fcntl
@@ -9,6 +9,7 @@ import os
 import signal
 import sys
 
+import accuracy
 import results
 from members import Engine, text_of, write_json
 from refinement import Convergence
@@ -20,7 +21,7 @@ KINDS = {"convergence": Convergence, "pareto": Pareto, "ablation": Ablation, "sw
          "ballistic_limit": BallisticLimit, "calibrate": Calibrate}
 # What makes the members; the rest of a study file only asks of them, and may change.
 MAKES = ("set", "truth", "vary", "repeats", "effects", "design", "seed", "outcome", "speed")
-DONE, BAD_INPUT, NOTHING, STOPPED = 0, 2, 3, 4
+DONE, BAD_INPUT, NOTHING, STOPPED, WARNED = 0, 2, 3, 4, 5
 
 
 def say(line):
@@ -150,6 +151,25 @@ def run_study(words):
     return tell(study, question, rows, folder, more)
 
 
+def run_accuracy(words):
+    study, question, folder, jobs, budget = accuracy.prepare(words)
+    held = lock(folder)
+    require_same(study, folder)
+    engine = question.engine = Engine(study.scene, folder, study.fixed(), jobs, 1, budget, say)
+    try:
+        rows, more = gather(question, engine, True)
+    except KeyboardInterrupt:
+        say(f"krater run: interrupted; what is done lies in {folder}; the same command goes on")
+        return STOPPED
+    held.close()
+    code = tell(study, question, rows, folder, more)
+    if not any(row.done for row in rows):
+        return code
+    answer = question.answer(rows)
+    accuracy.publish(folder, rows, answer)
+    return DONE if answer.data["met"] else WARNED
+
+
 def print_list(question, engine):
     """One line per member for GNU parallel, a SLURM array or any queue."""
     rows, _ = gather(question, engine, False)
@@ -167,8 +187,12 @@ def tell(study, question, rows, folder, more):
             say(f"krater study: {row.member.name} {row.status}: {row.reason or 'not run'}")
         say(f"krater study: no member is done, so there is nothing to answer with; logs lie in {folder}/members")
         return STOPPED if more else NOTHING
-    for name in study.measures:
+    for name in list(study.measures):
         if all(row.measure(name) is None for row in done):
+            if study.kind == "accuracy" and len(study.measures) > 1:
+                study.measures.remove(name)
+                say(f"krater run: {name} has no value in any run; it is left out")
+                continue
             study.fail("measures", f"'{name}' has no value in any of the {len(done)} members that are done (the body is gone, or "
                        "the outcome is open); leave it out, or change `time.end`")
     answer = question.answer(rows)
@@ -197,11 +221,11 @@ def on_terminate(*_):
 
 
 def main(words):
-    """`words`: study FILE ...; returns an exit code."""
+    """`words`: study FILE ... or accuracy SCENE SHARE ...; returns an exit code."""
     signal.signal(signal.SIGTERM, on_terminate)
     signal.signal(signal.SIGHUP, on_terminate)
     try:
-        return run_study(words[1:])
+        return {"study": run_study, "accuracy": run_accuracy}[words[0]](words[1:])
     except InputError as error:
         say(str(error))
         return BAD_INPUT

@@ -127,11 +127,26 @@ def write(folder, study, rows, answer):
                for row, line in zip(rows, zip(*(values for *_, values in table)))]
     write_json(os.path.join(folder, "study.json"), clean({**made, "sentences": answer.sentences, "answer": answer.data,
                                                           "members": members}))
+    if study.kind in ("convergence", "accuracy"):
+        write_bands(os.path.join(folder, "uncertainty.tsv"), study.scene, answer.data["measures"])
     path = os.path.join(folder, "study.html")
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(page(made, rows, answer, table, draw(folder, answer)))
     os.replace(path + ".part", path)
     return path
+
+
+def write_bands(path, scene, curves):
+    """The band of every measure at every cell, for `krater run` to find (app/known_error.hpp): that of the finest, and the
+    distance to the finest added for the others."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(f"# scene {os.path.basename(scene)}\n")
+        for name, c in curves.items():
+            for cell, value in zip(c["cells"], c["values"]):
+                if c["uncertainty"] is not None and value is not None:
+                    band = c["uncertainty"] + abs(value - c["value"])
+                    file.write(f"{name}\t{cell:.17g}\t{value:.17g}\t{band:.6g}\t{c['how']}\n")
+    os.replace(path + ".part", path)
 
 
 def stamp(folder):

@@ -21,6 +21,7 @@ struct RunOptions {
   std::string output;                  ///< folder; empty: SCENE_out in the current directory
   std::vector<std::string> overrides;  ///< --set path=value
   std::string restart;                 ///< checkpoint file; empty: from the start
+  std::string accuracy, budget;        ///< --accuracy 2% --budget 20min: a study (app/study.hpp)
   int threads = 0;                     ///< 0: all
   bool quiet = false;
   bool strict = false;  ///< a run that ends with warnings is not done
