@@ -53,6 +53,9 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
               std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
                 return b.columns.body_acceleration >= 0;
               })} {
+  if (parts.carriers != nullptr)
+    reference_contact_ = std::make_unique<ReferenceContact>(
+        ReferenceContact::Parts{grid_, boundary_, contact_, *parts.carriers, bodies_, parts.shape});
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
   for (BodyKernelData& body : position_as_velocity_) {
@@ -124,12 +127,17 @@ void MpmStep::move(double dt) {
 
 MpmStep::Constraints MpmStep::constrain(bool projection) {
   Constraints out;
-  if (contact_.active()) out.contact = contact_.apply(grid_, columns_, rigid_, projection);
+  if (contact_.active()) out.contact = meet_bodies(projection);
   lap(Phase::contact);
   out.walls = boundary_.constrain();
   boundary_.mirror();
   lap(Phase::boundary);
   return out;
+}
+
+ContactWork MpmStep::meet_bodies(bool projection) {
+  if (reference_contact_) return reference_contact_->apply();
+  return contact_.apply(grid_, columns_, rigid_, projection);
 }
 
 // Not where body forces act: their work on the points is known after the gather only.
@@ -148,7 +156,8 @@ void MpmStep::write_node_work() {
   });
   lap(Phase::nodes);
   heat_ = {};
-  if (contact_.active()) heat_.contact = contact_.heat();
+  if (contact_.active())
+    heat_.contact = reference_contact_ ? reference_contact_->heat() : contact_.heat();
   heat_.walls = boundary_.heat();
   lap(Phase::boundary);
 }
@@ -203,7 +212,7 @@ SweepScratch MpmStep::scratch() {
 
 void MpmStep::relink() {
   boundary_.relink(grid_);
-  contact_.relink(grid_);
+  if (!reference_contact_) contact_.relink(grid_);
   boundary_blocks_.clear();
   for (std::size_t n = 0; n < grid_.node_blocks().size(); ++n)
     if (grid_.node_blocks()[n].at_boundary) boundary_blocks_.push_back(n);
@@ -363,6 +372,9 @@ void MpmStep::combine_patches(GatherPart part) {
     if (r.max_rate > limit_.rate)
       limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};
   }
+  // The points of a fixed reference cross no cell, but bodies must see each other before they meet.
+  if (reference_contact_ && reference_contact_->travel_rate() > limit_.rate)
+    limit_ = {reference_contact_->travel_rate(), 1, limit_.body, limit_.id};
 }
 
 void MpmStep::throw_faults() const {
