@@ -116,7 +116,7 @@ void check_handbook(const MaterialOptions& m, std::vector<std::string>& doubts) 
 
 /// Cold tension has no limit of its own in these.
 void check_tension(const MaterialOptions& m, std::vector<std::string>& doubts) {
-  if (!m.eos || m.eos->name == "ideal_gas" || m.eos->name == "jwl") return;
+  if (!m.eos || m.eos->name == "ideal_gas" || m.eos->name.starts_with("jwl")) return;
   if (!m.strength || m.strength->name == "elastic" || m.strength->name == "drucker_prager") return;
   if (m.spall_strength) return;
   const bool offered = std::count(m.unused.begin(), m.unused.end(), "spall_strength") > 0;

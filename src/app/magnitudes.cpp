@@ -40,6 +40,9 @@ constexpr Magnitude kMagnitudes[] = {
     {any, "initial_temperature", "K", 50, 1e5, 293},
     {explosive, "A", "Pa", 1e9, 5e12, 5e11},
     {explosive, "B", "Pa", 1e7, 1e12, 7e9},
+    {explosive, "p_CJ", "Pa", 5e8, 1e11, 2.5e10},
+    {explosive, "D", "m/s", 1e3, 1.2e4, 7e3},
+    {explosive, "bulk_modulus", "Pa", 1e8, 1e11, 1e10},
     {any, "E0", "Pa", 1e7, 5e10, 7e9},
     {any, "initial_pressure", "Pa", 1e-3, 1e12, 1e5},
     {any, "a0", "Pa", 1e6, 2e12, 1e11},
@@ -123,7 +126,7 @@ std::string other_unit(double value, const char* unit, double usual) {
 
 unsigned kind_of(const MaterialOptions& m) {
   if (m.eos && m.eos->name == "ideal_gas") return gas;
-  if (m.eos && m.eos->name == "jwl") return explosive;
+  if (m.eos && m.eos->name.starts_with("jwl")) return explosive;
   return m.strength || m.model || m.shear_modulus > 0 ? solid : fluid;
 }
 

@@ -126,6 +126,14 @@ struct Assembler {
                     layout));
   }
 
+  /// Of an explosive, before its equation of state, which has declared what burns.
+  void add_burn() {
+    if (plan.eos.law < 0) return;
+    const Stage* burn = factory.burn(plan.eos.law, plan.eos.values, plan.constants, layout);
+    if (burn == nullptr) return;
+    stages.insert(stages.end() - 1, {"burn", std::unique_ptr<const Stage>{burn}});
+  }
+
   void add_heating() {
     if (plan.heating.law < 0 || !info(plan.heating).needs_eos) return add_law(plan.heating);
     add("heating: " + info(plan.heating).name,
@@ -157,6 +165,7 @@ std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialP
   }
   if (plan.strength.law >= 0) all.add_cohesion(first);
   all.add_eos();
+  all.add_burn();
   all.add_heating();
   all.add("signal speed", factory.signal_speed(plan.q_lin, plan.q_quad, layout));
   return std::move(all.stages);

@@ -2,6 +2,7 @@
 #include "krater/materials/catalogue.hpp"
 
 #include "krater/materials/law_list.hpp"
+#include "krater/materials/stages/burn_stage.hpp"
 
 namespace krater {
 
@@ -21,6 +22,7 @@ LawInfo describe() {
                .dilates = Dilatant<Law>,
                .fails = Fails<Law>,
                .needs_flow = Law::family == Family::damage && needs_flow<Law>,
+               .burns = Burns<Law>,
                .needs_eos = false};
   if constexpr (parameter_count < Law >> 0) {
     for (const Parameter<Law>& p : Law::parameters) info.parameters.push_back(p.info);
@@ -39,6 +41,7 @@ struct LawAnswers {
   const char* problem = nullptr;
   bool degrades = false;
   std::optional<double> thermal_energy = {}, sound_speed = {};
+  std::optional<ProgrammedFront> front = {};
 };
 
 template <class Law>
@@ -48,6 +51,8 @@ LawAnswers ask(const double* values, const MaterialConstants& constants) {
   if constexpr (requires { law.problem(); }) answers.problem = law.problem();
   if constexpr (requires { law.degrades(); }) answers.degrades = law.degrades();
   if constexpr (requires { law.thermal_energy(); }) answers.thermal_energy = law.thermal_energy();
+  if constexpr (Burns<Law>)
+    if (law.lit()) answers.front = ProgrammedFront{law.D, law.front_width};
   if constexpr (Law::family == Family::eos || Law::family == Family::model)
     answers.sound_speed = law.c0;
   return answers;
@@ -116,6 +121,11 @@ std::optional<double> thermal_energy_at_start(int law, const double* values,
 std::optional<double> sound_speed_at_rest(int law, const double* values,
                                           const MaterialConstants& constants) {
   return answers_of(law, values, constants).sound_speed;
+}
+
+std::optional<ProgrammedFront> programmed_front(int law, const double* values,
+                                                const MaterialConstants& constants) {
+  return answers_of(law, values, constants).front;
 }
 
 const char* law_problem(int law, const double* values, const MaterialConstants& constants) {

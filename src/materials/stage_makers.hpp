@@ -34,6 +34,7 @@ Stage* make_part(const PartRequest& request, Layout& layout);
 Stage* make_eos(const EosRequest& request, Layout& layout);
 StagesAround make_cohesion(int eos, const double* values, const MaterialConstants& constants,
                            Layout& layout);
+Stage* make_burn(int eos, const double* values, const MaterialConstants& constants, Layout& layout);
 Stage* make_energy_heating(const EnergyHeatingRequest& request, Layout& layout);
 Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& constants,
                        Layout& layout);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pressure, and temperature from the energy (compiled once per instruction-set level).
+#include "krater/materials/stages/burn_stage.hpp"
 #include "krater/materials/stages/cohesion_stage.hpp"
 #include "krater/materials/stages/energy_heating_stage.hpp"
 #include "krater/materials/stages/eos_stage.hpp"
@@ -63,16 +64,19 @@ StagesAround make_cohesion(int eos, const double* values, const MaterialConstant
   return around;
 }
 
+Stage* make_burn(int eos, const double* values, const MaterialConstants& constants,
+                 Layout& layout) {
+  return stage_of(AllLaws{}, eos, [&]<class Law>() -> Stage* {
+    if constexpr (Burns<Law>) return new BurnStage<Law>{make_law<Law>(values, constants), layout};
+    return nullptr;
+  });
+}
+
 Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& constants,
                        Layout& layout) {
   return stage_of(AllLaws{}, eos, [&]<class Law>() -> Stage* {
     if constexpr (Law::family == Family::eos) {
-      const Law law = make_law<Law>(values, constants);
-      if constexpr (requires { law.solid; }) {
-        return make_floor_of(law.solid, layout);
-      } else {
-        return make_floor_of(law, layout);
-      }
+      return make_floor_of(matter_of(make_law<Law>(values, constants)), layout);
     } else {
       return nullptr;
     }
@@ -82,12 +86,7 @@ Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& c
 Stage* make_energy_heating(const EnergyHeatingRequest& r, Layout& layout) {
   return stage_of(AllLaws{}, r.eos, [&]<class Law>() -> Stage* {
     if constexpr (Law::family == Family::eos) {
-      const Law law = make_law<Law>(r.eos_values, r.constants);
-      if constexpr (requires { law.solid; }) {
-        return make_heating_of(law.solid, r, layout);
-      } else {
-        return make_heating_of(law, r, layout);
-      }
+      return make_heating_of(matter_of(make_law<Law>(r.eos_values, r.constants)), r, layout);
     } else {
       return nullptr;
     }

@@ -35,8 +35,9 @@ Stage* make_signal_speed(double q_lin, double q_quad, Layout& layout) {
   return new SignalSpeedStage{q_lin, q_quad, layout};
 }
 
-constexpr StageFactory factory{make,          make_part,       make_eos,        make_energy_heating,
-                               make_cohesion, make_heat_floor, make_kinematics, make_signal_speed};
+constexpr StageFactory factory{
+    make,      make_part,       make_eos,        make_energy_heating, make_cohesion,
+    make_burn, make_heat_floor, make_kinematics, make_signal_speed};
 
 }  // namespace
 

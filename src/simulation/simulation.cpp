@@ -86,8 +86,10 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       grid_{geometry_},
       boundary_{geometry_, scene.grid.boundary, scene.method.reference != Reference::current},
       contact_{geometry_, scene.grid.boundary, scene.frame == Frame::axisymmetric,
-               scene.method.shape == Shape::linear, scene.contact},
+               scene.method.shape == Shape::linear && scene.method.reference == Reference::current,
+               scene.contact},
       energy_watch_{boundary_},
+      detonation_{scene},
       clock_{{stable_share(scene) * scene.time.cfl, scene.time.first_step, scene.time.min_step,
               scene.time.max_step}} {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -102,6 +104,9 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   kernels_.reset(make(choice));
   choice.affine = choice.fixed_reference;
   plain_kernels_.reset(make(choice));
+  if (choice.fixed_reference && scene.contact.active)
+    carrier_kernels_.reset(
+        make({kernel_frame(scene.frame), KernelShape::quadratic_bspline, true, false}));
   if (choice.fixed_reference || scene.contact.active) {  // a velocity field for each body
     std::vector<FieldId> fields;
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) fields.push_back(own_field(b));
@@ -111,7 +116,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   loads_ = make_loads();
   step_ = std::make_unique<MpmStep>(
       scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
-                                   kernel_data_, audit_, *loads_, impulses_});
+                                   kernel_data_, audit_, *loads_, impulses_, carrier_kernels_.get(),
+                                   kernel_shape(scene.method.shape)});
   place_rigid_bodies();
   place_meshes();
   choose_first_step();
@@ -176,11 +182,15 @@ void Simulation::place_points() {
           where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches().size()));
       if (is_new) grid_.add_patch(key, static_cast<int>(b), stride);
       bodies_[b]->make_point(scene_, seeds[id], id, record);
+      if (detonation_.burns(static_cast<int>(b)))
+        record[static_cast<std::size_t>(bodies_[b]->slot(field::SinceLighting::info))] =
+            detonation_.since_lighting(static_cast<int>(b), seeds[id].x);
       grid_.patches()[static_cast<std::size_t>(at->second)].append(record.data());
       const double m = bodies_[b]->material().density * seeds[id].measure;
       smallest = smallest > 0 ? std::min(smallest, m) : m;
     }
   }
+  detonation_.require_all_lit();
   for (Patch& p : grid_.patches())
     p.points.pad(kernel_data_[static_cast<std::size_t>(p.body)].columns.mass);
   grid_.rebuild(true);
@@ -211,7 +221,7 @@ void Simulation::choose_first_step() {
   }
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
-  limit_.rate = (2 * fastest + signal) * geometry_.inv_h;
+  limit_.rate = std::max((2 * fastest + signal) * geometry_.inv_h, detonation_.rate(time()));
   require_steps(scene_.time, clock_.stable_step(limit_.rate));
   clock_.start(limit_.rate);
 }
@@ -253,7 +263,7 @@ std::string Simulation::limiting_field(int s, int point) const {
 
 double Simulation::next_step(double until) {
   try {
-    return clock_.next(limit_.rate, until);
+    return clock_.next(std::max(limit_.rate, detonation_.rate(time())), until);
   } catch (const StepVanished& e) {
     throw NumericalError(
         fmt::format("time step vanished: {:.3e} s < time.min_step = {:.3e} s; {}; time {:.6e} s, "

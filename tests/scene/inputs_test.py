@@ -12,6 +12,7 @@ SCENES = {
     # Their 3d runs are for tools/validate: full cylinders of millions of points.
     "ccf_hypervelocity": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "ccf_plugging": {"frames": ("axisymmetric",), "end": "5 us", "coarse": None, "cell": "0.8 mm", "too_large": ("3d",)},
+    "cylinder_test": {"frames": ("axisymmetric",), "end": "4 us", "coarse": None},
     "hiermaier_al": {"frames": ("axisymmetric",), "end": "0.2 us", "coarse": None, "too_large": ("3d",)},
     "ccf_two_bars": {"frames": ("3d",), "end": "1 us", "coarse": "1.25 mm"},
     "copper_spall": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.1 us", "coarse": "0.02 mm"},

@@ -53,7 +53,7 @@ Momenta momenta_of(MeshRun& run) {
   return out;
 }
 
-/// 3.2 x 32.4 mm of copper at 227 m/s, its foot held in z (the benchmark note of the Carina project).
+/// 3.2 x 32.4 mm of copper at 227 m/s, its foot held in z (note of the Carina project).
 MeshRun copper_bar(int across, const std::string& foot) {
   const std::string yaml =
       "frame: axisymmetric\n"

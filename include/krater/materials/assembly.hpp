@@ -10,6 +10,7 @@
 /// so that neither rates nor damage laws multiply the compiled yield laws. A coupled law takes the
 /// place of strength, damage and eos:
 ///   start -> trial -> model
+/// An explosive burns before its equation of state (materials/stages/burn_stage.hpp).
 /// With an equation of state whose solid parts, two stages stand about those of the strength
 /// (materials/stages/cohesion_stage.hpp).
 #include <limits>

@@ -28,6 +28,7 @@ struct LawInfo {
   bool dilates;     ///< strength whose flow opens voids
   bool fails;       ///< model whose points fail
   bool needs_flow;  ///< damage that grows with plastic strain: the strength must yield
+  bool burns;       ///< eos of an explosive that becomes products in the run
   bool needs_eos;   ///< heating whose temperature is that of the equation of state
 };
 
@@ -54,6 +55,14 @@ std::optional<double> thermal_energy_at_start(int law, const double* values,
 /// Bulk sound speed at rest of an equation of state or a model [m/s]; nothing of other laws.
 std::optional<double> sound_speed_at_rest(int law, const double* values,
                                           const MaterialConstants& constants);
+
+/// The front that burns an explosive; nothing where none does.
+struct ProgrammedFront {
+  double speed;  ///< D [m/s]
+  double width;  ///< [cells]
+};
+std::optional<ProgrammedFront> programmed_front(int law, const double* values,
+                                                const MaterialConstants& constants);
 
 /// What is wrong between parameters that are each in range (T_melt below T_ref), or nullptr.
 const char* law_problem(int law, const double* values, const MaterialConstants& constants);

@@ -10,6 +10,7 @@
 #include "krater/materials/damage/strain_criteria.hpp"
 #include "krater/materials/damage/tuler_butcher.hpp"
 #include "krater/materials/eos/jwl.hpp"
+#include "krater/materials/eos/jwl_burn.hpp"
 #include "krater/materials/eos/linear.hpp"
 #include "krater/materials/eos/mie_gruneisen_polynomial.hpp"
 #include "krater/materials/eos/mie_gruneisen_shock.hpp"
@@ -60,6 +61,7 @@ using AllLaws = LawList<Elastic,                 //
                         IdealGas,                //
                         StiffenedGas,            //
                         Jwl,                     //
+                        JwlBurn,                 //
                         Tillotson,               //
                         HolmquistJohnsonCook,    //
                         BulkViscosity,           //

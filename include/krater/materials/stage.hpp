@@ -106,6 +106,9 @@ struct StageFactory {
   /// both null where the law has no such end. Made when the strength's own stages are.
   StagesAround (*cohesion)(int eos, const double* values, const MaterialConstants& constants,
                            Layout& layout);
+  /// What burns an explosive, before the stage of its equation of state and made after it; null
+  /// where nothing burns.
+  Stage* (*burn)(int eos, const double* values, const MaterialConstants& constants, Layout& layout);
   /// Heat that may be taken (materials/stages/heat_floor_stage.hpp); null where the pressure of the
   /// law does not know the energy.
   Stage* (*heat_floor)(int eos, const double* values, const MaterialConstants& constants,

@@ -22,6 +22,9 @@ struct FieldInfo {
   const char* meaning;
 };
 
+/// Time since lighting of an explosive that nothing lights [s]: a step leaves it as it is.
+inline constexpr double kNeverLit = -1e12;
+
 template <class F>
 concept Field = requires {
   static_cast<const FieldInfo&>(F::info);
@@ -54,6 +57,10 @@ KRATER_FIELD(
     "specific volume of voids opened by plastic flow; the equation of state does not see it");
 KRATER_FIELD(Distension, "distension", "1", 1,
              "volume of the porous material over that of its solid: 1 without pores");
+KRATER_FIELD(BurnFraction, "burn_fraction", "1", 1,
+             "mass fraction of an explosive that has become products");
+KRATER_FIELD(SinceLighting, "since_lighting", "s", 1,
+             "time since the detonation front came by, negative before");
 KRATER_FIELD(Damage, "damage", "1", 1, "damage phi: 0 sound, fails at phi_c");
 KRATER_FIELD(Failed, "failed", "1", 1,
              "1 where the material has failed: no tension, no deviator but friction of rubble");

@@ -12,6 +12,7 @@
 
 #include "krater/contact/options.hpp"
 #include "krater/geometry/frame.hpp"
+#include "krater/geometry/lighting.hpp"
 #include "krater/geometry/seeds/lattice.hpp"
 #include "krater/geometry/solids/solid.hpp"
 #include "krater/kinematics/mesh/options.hpp"
@@ -122,6 +123,7 @@ struct Scene {
   std::vector<BodyOptions> bodies;
   std::shared_ptr<const FieldFunction> body_force;  ///< acceleration [m/s^2]; null: none
   LoadOptions loads;
+  std::vector<Detonator> detonators;
   std::vector<MeasureOptions> measures;
   std::vector<OutcomeOptions> outcomes;
   std::vector<GaugeOptions> gauges;

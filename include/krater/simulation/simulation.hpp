@@ -15,6 +15,7 @@
 #include "krater/kinematics/mpm/mpm_step.hpp"
 #include "krater/output/results.hpp"
 #include "krater/simulation/body.hpp"
+#include "krater/simulation/detonation.hpp"
 #include "krater/simulation/warnings.hpp"
 
 namespace krater {
@@ -139,7 +140,9 @@ class Simulation {
   ContactSet contact_;
   RigidBodies rigid_;
   EnergyWatch energy_watch_;
+  Detonation detonation_;
   std::unique_ptr<Kernels> kernels_, plain_kernels_;
+  std::unique_ptr<Kernels> carrier_kernels_;  ///< contact on a fixed reference
   Audit audit_;
   Impulses impulses_;
   std::unique_ptr<NodeLoads> loads_;

@@ -54,6 +54,9 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
               std::any_of(parts.bodies.begin(), parts.bodies.end(), [](const BodyKernelData& b) {
                 return b.columns.body_acceleration >= 0;
               })} {
+  if (parts.carriers != nullptr)
+    reference_contact_ = std::make_unique<ReferenceContact>(
+        ReferenceContact::Parts{grid_, boundary_, contact_, *parts.carriers, bodies_, parts.shape});
   for (BodyKernelData& body : velocity_from_kept_)
     body.columns.velocity = body.columns.grid_velocity;
   for (BodyKernelData& body : position_as_velocity_) {
@@ -120,7 +123,7 @@ void MpmStep::move(double dt) {
 
 MpmStep::Constraints MpmStep::constrain(bool projection) {
   Constraints out;
-  if (contact_.active()) out.contact = contact_.apply(grid_, columns_, rigid_, projection);
+  if (contact_.active()) out.contact = meet_bodies(projection);
   lap(Phase::contact);
   out.walls = boundary_.constrain();
   boundary_.mirror();
@@ -128,36 +131,9 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
   return out;
 }
 
-// Not where body forces act: their work on the points is known after the gather only.
-void MpmStep::watch_energy() const {
-  const Constraints& c = constraints_;
-  if (loaded_) return;
-  energy_watch_.check_nodes(audit_, grid_kinetic_ + c.change(),
-                            {audit_.step_external + c.contact.driven, c.walls.work});
-}
-
-// k of all nodes, when v+ is final, in place of the volumes.
-void MpmStep::write_node_work() {
-  const bool moments = settings(0).moments;
-  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
-    if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks()[n], moments);
-  });
-  lap(Phase::nodes);
-  heat_ = {};
-  if (contact_.active()) heat_.contact = contact_.heat();
-  heat_.walls = boundary_.heat();
-  lap(Phase::boundary);
-}
-
-void MpmStep::book() {
-  const Constraints& c = constraints_;
-  audit_.book_step(heat_);
-  audit_.external_work += c.contact.driven;
-  audit_.wall_work += c.walls.work;
-  audit_.friction_work += c.contact.friction;
-  audit_.contact_pairs = c.contact.nodes;
-  book_impulses();
-  audit_.wall_columns = c.walls.columns_in_contact;
+ContactWork MpmStep::meet_bodies(bool projection) {
+  if (reference_contact_) return reference_contact_->apply();
+  return contact_.apply(grid_, columns_, rigid_, projection);
 }
 
 void MpmStep::account_folds(double dt) {
@@ -199,7 +175,7 @@ SweepScratch MpmStep::scratch() {
 
 void MpmStep::relink() {
   boundary_.relink(grid_);
-  contact_.relink(grid_);
+  if (!reference_contact_) contact_.relink(grid_);
   boundary_blocks_.clear();
   for (std::size_t n = 0; n < grid_.node_blocks().size(); ++n)
     if (grid_.node_blocks()[n].at_boundary) boundary_blocks_.push_back(n);
@@ -335,37 +311,6 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   throw_faults();
   if (moves && rigid_.any()) rigid_.throw_collisions(grid_);
   if (part != GatherPart::keep_only) combine_patches(part);
-}
-
-void MpmStep::combine_patches(GatherPart part) {
-  const bool forces_worked = part != GatherPart::strain_move && part != GatherPart::strain_only;
-  const bool strains = part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
-                       part != GatherPart::keep_only;
-  audit_.kinetic = audit_.internal = audit_.unfelt = 0;
-  double law_work = 0;
-  limit_ = {};
-  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
-    const PatchResult& r = grid_.patches()[p].result;
-    if (feels_no_energy(p)) {
-      audit_.unfelt += r.internal;
-      law_work += r.ledger.barotropic_work;
-    }
-    audit_.kinetic += r.kinetic;
-    audit_.internal += r.internal;
-    if (forces_worked) {
-      audit_.step_external += r.external_work;
-      for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += r.cut_impulse[a];
-      heat_.given += r.heat_given;
-      heat_.taken += r.heat_taken;
-      heat_.carried += r.carried;
-      heat_.carriers += r.carriers;
-    }
-    audit_.book_events(r.ledger);
-    if (r.max_rate > limit_.rate)
-      limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};
-  }
-  // e is that of the middle of a step; the laws are half a step ahead of it, under usf behind.
-  if (strains) audit_.book_laws(law_work, method_.update == Update::usf ? -0.5 : 0.5);
 }
 
 void MpmStep::throw_faults() const {

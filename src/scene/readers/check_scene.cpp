@@ -83,7 +83,7 @@ void check_method(Reading& reading) {
   }
 }
 
-/// A fixed reference has one sweep, and no grid that bodies share.
+/// A fixed reference has one sweep; bodies share no grid but that of contact.
 void check_reference(Reading& reading) {
   const MethodOptions& method = reading.scene.method;
   if (method.reference == Reference::current) return;
@@ -92,10 +92,14 @@ void check_reference(Reading& reading) {
          "only reference: current works with update musl or usf or with transfer xpic; use update: "
          "usl and transfer tflip, flip or apic",
          reading);
-  if (reading.scene.bodies.size() > 1)
+  for (const BodyOptions& body : reading.scene.bodies)
+    if (body.rigid())
+      fail("bodies." + body.name + ".rigid",
+           "rigid bodies meet others on method.reference: current only", reading);
+  if (reading.scene.bodies.size() > 1 && !reading.scene.contact.active)
     reading.scene.notes.push_back(
-        "method.reference: every body has a reference grid of its own: bodies pass through each "
-        "other; use reference: current where they should meet");
+        "method.reference: every body has a reference grid of its own: without a contact block "
+        "bodies pass through each other; contact: {friction: 0} lets them meet");
 }
 
 void check_contact(Reading& reading) {
@@ -109,9 +113,6 @@ void check_contact(Reading& reading) {
   }
   if (scene.bodies.size() < 2)
     scene.notes.push_back("contact: there is one body; a body has no contact with itself");
-  if (scene.method.reference != Reference::current)
-    fail("contact",
-         "contact needs method.reference: current; a fixed reference grid knows one body", reading);
   if (scene.method.transfer == Transfer::xpic)
     fail("contact",
          "contact does not go with transfer xpic: its filter would undo the impulses; "

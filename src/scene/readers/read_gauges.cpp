@@ -10,16 +10,6 @@ namespace {
 
 constexpr double kSamples = 1000;  // over the run, unless told otherwise
 
-std::optional<Triple> read_place(const Node& node, Reading& reading) {
-  const auto space = read_position(node, reading);
-  if (!space) return std::nullopt;
-  Triple grid{};
-  for (int a = 0; a < dimension(reading.scene.frame); ++a)
-    grid[static_cast<std::size_t>(a)] =
-        (*space)[static_cast<std::size_t>(tensor_axis(reading.scene.frame, a))];
-  return grid;
-}
-
 /// `at: [0, 3 mm]`, or a line `from`, `to`, `count`.
 void read_places(Block& block, GaugeOptions& gauge, Reading& reading) {
   const Node *at = block.find("at"), *from = block.find("from"), *to = block.find("to");

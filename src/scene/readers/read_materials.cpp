@@ -242,6 +242,11 @@ void check_heating(const MaterialOptions& material, Block& block) {
                " takes the temperature from an eos, and there is none; use plastic_work");
     return;
   }
+  if (law_info(*material.eos).burns) {
+    block.fail("heating energy knows the temperature of products only, not of the unburnt " +
+               material.eos->name + "; leave heating out, or use eos jwl, which starts burnt");
+    return;
+  }
   const MaterialConstants constants{material.density, material.shear_modulus,
                                     material.initial_temperature};
   const std::optional<double> heat =

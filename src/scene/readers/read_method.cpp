@@ -184,7 +184,8 @@ const std::vector<FieldName>& known_fields() {
                                     &field::DeformationGradient::info,
                                     &field::ReferencePosition::info,
                                     &field::BodyAcceleration::info,
-                                    &field::GridVelocity::info};
+                                    &field::GridVelocity::info,
+                                    &field::SinceLighting::info};
     std::vector<FieldName> names;
     for (const FieldInfo* info : all) names.push_back({info->name, info->unit});
     for (const LawInfo& law : catalogue())  // what laws remember

@@ -39,9 +39,9 @@ void require_blocks(const Node& tree, Block& root) {
     if (!tree.find(key)) root.fail("missing key '" + std::string{key} + "'");
   }
   if (framed) return;
-  for (const char* key :
-       {"title", "frame", "grid", "time", "method", "materials", "bodies", "contact", "body_force",
-        "damping", "loads", "output", "measures", "outcomes", "gauges", "references"}) {
+  for (const char* key : {"title", "frame", "grid", "time", "method", "materials", "bodies",
+                          "contact", "body_force", "damping", "loads", "detonators", "output",
+                          "measures", "outcomes", "gauges", "references"}) {
     root.find(key);
   }
   root.finish();
@@ -66,6 +66,7 @@ void read_blocks(Block& root, Reading& reading) {
     root.record("contact", read_contact(*node, reading));
   read_body_force(root, reading);
   read_loads(root, reading);
+  read_detonators(root, reading);
   root.record("output", read_output(root.find("output"), reading));
   root.record("measures", read_measures(root.find("measures"), reading));
   read_answers(root, reading);

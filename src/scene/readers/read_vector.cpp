@@ -110,6 +110,16 @@ std::optional<Triple> read_position(const Node& node, Reading& reading) {
   return Triple{values[0], 0.0, values[1]};
 }
 
+std::optional<Triple> read_place(const Node& node, Reading& reading) {
+  const auto space = read_position(node, reading);
+  if (!space) return std::nullopt;
+  Triple grid{};
+  for (int a = 0; a < dimension(reading.scene.frame); ++a)
+    grid[static_cast<std::size_t>(a)] =
+        (*space)[static_cast<std::size_t>(tensor_axis(reading.scene.frame, a))];
+  return grid;
+}
+
 std::optional<ReadField> read_field(const Node& node, const char* unit, Reading& reading) {
   const auto given = read_components(node, unit, true, reading);
   if (!given) return std::nullopt;

@@ -54,6 +54,7 @@ struct ReadTime {
 std::optional<ReadTime> read_time_function(const Node& node, const char* unit, Reading& reading);
 /// `damping:` and `loads:`, after read_bodies; loads on sides of the box find their bodies.
 void read_loads(Block& root, Reading& reading);
+void read_detonators(Block& root, Reading& reading);
 /// `outcomes:` and `time.stop_when`, which may add one; after read_bodies.
 Node read_outcomes(const Node* node, Reading& reading);
 void read_stop(const Node& node, Reading& reading);
@@ -77,6 +78,8 @@ std::optional<Triple> read_vector(const Node& node, const char* unit, Reading& r
 
 /// A position in 3D space from two (x or r, z) or three components.
 std::optional<Triple> read_position(const Node& node, Reading& reading);
+/// The same along the grid axes.
+std::optional<Triple> read_place(const Node& node, Reading& reading);
 
 /// A vector field along the grid axes: numbers with units or expressions. `field` is null where it
 /// is zero everywhere.

@@ -24,6 +24,7 @@
 #include "krater/kinematics/mpm/node_loads.hpp"
 #include "krater/kinematics/mpm/options.hpp"
 #include "krater/kinematics/mpm/reference.hpp"
+#include "krater/kinematics/mpm/reference_contact.hpp"
 
 namespace krater {
 
@@ -55,6 +56,10 @@ class MpmStep final : public Kinematics {
     Audit& audit;
     NodeLoads& loads;
     Impulses& impulses;
+    /// Contact on a fixed reference: kernels of the current configuration, and the shape of the
+    /// scene.
+    const Kernels* carriers = nullptr;
+    KernelShape shape = KernelShape::quadratic_bspline;
   };
   MpmStep(const MethodOptions& method, const Parts& parts);
 
@@ -97,6 +102,7 @@ class MpmStep final : public Kinematics {
   };
   /// `projection`: the nodes of a second pass, whose impulses no rigid body receives.
   Constraints constrain(bool projection = false);
+  ContactWork meet_bodies(bool projection);
   void begin_rigid(double dt, double& kinetic);
   void finish_rigid(double dt);
   void move_rigid(std::size_t patch, const SweepScratch& w);
@@ -164,6 +170,7 @@ class MpmStep final : public Kinematics {
   Audit& audit_;
   NodeLoads& loads_;
   Impulses& impulses_;
+  std::unique_ptr<ReferenceContact> reference_contact_;  ///< null: nodes are where material is
   EnergyWatch energy_watch_;
   double grid_kinetic_ = 0;  ///< of the step under way, as are the next three
   Constraints constraints_;

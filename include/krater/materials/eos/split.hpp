@@ -74,6 +74,19 @@ KRATER_FORCE_INLINE Real pressure_at(const Law& law, Real rho, Real v, Real e) {
   return fma(split.thermal, e, split.cold);
 }
 
+/// What holds the heat of a law with history: the solid of a porous material, the products of an
+/// explosive; else the law itself.
+template <class Law>
+KRATER_FORCE_INLINE const auto& matter_of(const Law& law) {
+  if constexpr (requires { law.solid; }) {
+    return law.solid;
+  } else if constexpr (requires { law.products; }) {
+    return law.products;
+  } else {
+    return law;
+  }
+}
+
 /// State of a new point.
 template <class Law>
 KRATER_FORCE_INLINE double energy_at_start(const Law& law) {
