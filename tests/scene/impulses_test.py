@@ -49,7 +49,9 @@ measures:
   plate_px: {kind: momentum, body: plate, axis: x}
   plate_pz: {kind: momentum, body: plate, axis: z}
   ball_pz: {kind: momentum, body: ball, axis: z}
+  touch: {kind: force, body: block, by: plate, axis: z}
   peak: {kind: force, body: plate, by: block, axis: z, keep: smallest}
+gauges: {pair: {measures: [touch, block_plate_x, block_pz_rate], every: 0.7 us, filter: {moving_mean: 3 us}}}
 """
 
 OWNERS = {
@@ -73,6 +75,11 @@ def anvil():
     scale = abs(rows["momentum_z"][0])
     gap = max(abs(change(rows, "momentum_z") - rows["push"])) / scale
     check(gap < 1e-10 and rows["push"][-1] > 0.1 * scale, "the anvil's impulse is the rod's change of momentum", f"{gap:.1e}")
+    for scheme in ("transfer=apic", "transfer={xpic: {order: 2}}", "update=musl", "update=usf"):
+        run("scheme", *ANVIL, "time.end=6 us", "time.energy_error=off", f"method.{scheme}")
+        other = history("scheme")
+        gap = max(abs(change(other, "momentum_z") - other["push"])) / scale
+        check(gap < 1e-10 and other["push"][-1] > 0.05 * scale, f"{scheme}: the same", f"{gap:.1e}")
     done = np.sum(rows["F"][1:] * np.diff(rows["time"]))
     check(abs(done - rows["push"][-1]) < 1e-10 * scale, "the integral of the force is the impulse", (done, rows["push"][-1]))
     with h5py.File("anvil/history.h5", "r") as file:
@@ -129,12 +136,14 @@ def main():
         run("parts", scene=scene, extra=["--restart", "parts/checkpoint.h5"])
         found = [d for d in differences("one", "parts") if "summary" not in d]
         check(not found, "the same bits across a restart", found)
+        pair = [pathlib.Path(name, "gauge_pair.csv").read_bytes() for name in ("one", "two", "parts")]
+        check(pair[0] == pair[1] == pair[2] and pair[0].count(b"\n") > 80, "of the gauge too, on threads and across a restart")
         run("musl", "method.update=musl", "time.end=20 us", scene=scene)
         pairs_of_short = history("musl")
         gap = change(pairs_of_short, "block_pz") - sum(pairs_of_short[f"block_{by}_z"] for by in ("plate", "ball", "ram", "wall"))
         check(max(abs(gap)) < 1e-12 * abs(pairs_of_short["block_pz"][0]), "musl: impulses make up the momentum", max(abs(gap)))
         fold = pathlib.Path(folder, "fold.yaml")
-        rigid = ("  ball:", "  ram:", "  block_ball", "  block_ram", "  ball_")
+        rigid = ("  ball:", "  ram:", "  block_ball", "  block_ram", "  ball_", "gauges:")
         fold.write_text("".join(line for line in BODIES.splitlines(True) if not line.startswith(rigid)), encoding="utf-8")
         for name, settings in OWNERS.items():
             done = run(name, "time.end=20 us", *settings, scene=fold if "fold" in name else scene)

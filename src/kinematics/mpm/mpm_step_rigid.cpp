@@ -8,7 +8,7 @@ namespace krater {
 // external.
 void MpmStep::begin_rigid(double dt, double& kinetic) {
   if (!rigid_.any()) return;
-  rigid_.rewind();  // what an earlier question foretold
+  rigid_.rewind();  // of the question before, if there was one
   const Triple before = rigid_.momentum();
   const double work = rigid_.begin(dt);
   const Triple now = rigid_.momentum();
