@@ -247,7 +247,7 @@ def to_an_accuracy():
     told = re.search("is not known to 0.1 %: ([0-9.]+ %|nothing) can be had at", done.stdout)
     check((done.returncode == 5 and told) or (done.returncode == 4 and "members are left" in done.text) or
           "no member is done" in done.text, "what cannot be had is said, and what can", done.text)
-    for words, what in ((("--accuracy", "0"), "no number of runs has no error"), (("--budget", "1s"), "--accuracy"), 
+    for words, what in ((("--accuracy", "0"), "no number of runs has no error"), (("--budget", "1s"), "--accuracy"),
                         (("--accuracy", "2%", "--restart", "x.h5"), "goes on by itself"),
                         (("--accuracy", "2%", "--set", "grid.box=1"), "grid.box")):
         done = krater("run", plain, *words)
