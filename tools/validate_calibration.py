@@ -47,7 +47,8 @@ def strip(cells, end, materials, bodies, length=1.0, room=0.1, low=0.0, side="sy
     bottom = low - (steps * h if side == "open" else 0)
     return (f"frame: plane_strain\ngrid: {{cell: {h!r}, box: {{min: [0, {bottom!r}], max: [{4 * h!r}, "
             f"{low + length + steps * h!r}]}}, boundary: {{x_min: symmetry, x_max: symmetry, z_min: {side}}}}}\n"
-            f"time: {{end: {end!r}}}\nmaterials:\n{materials}bodies:\n{lines}output: {{frames: 0, history: {end / 20!r}}}\n{more}")
+            f"time: {{end: {end!r}}}\nmaterials:\n{materials}bodies:\n{lines}output: "
+            f"{{frames: 0, history: {end / 20!r}}}\n{more}")
 
 
 def shock(name, u):
@@ -57,12 +58,13 @@ def shock(name, u):
     length, end = 0.02, 0.75 * 0.02 / exact["U"]
     front = (exact["U"] - u) * end
     inside = f"z_min: {0.3 * front!r}, z_max: {0.7 * front!r}"
-    material = (f"  m: {{density: {x['rho0']!r}, initial_temperature: 300, heating: {{energy: {{c_v: {x['c_v']!r}}}}}, viscosity: "
-                f"{{q_lin: 0.5, q_quad: 2.0}}, eos: {{mie_gruneisen_shock: {{c0: {x['c0']!r}, S1: {x['s']!r}, gamma0: "
-                f"{x['Gamma0']!r}}}}}}}\n")
+    material = (f"  m: {{density: {x['rho0']!r}, initial_temperature: 300, heating: {{energy: {{c_v: {x['c_v']!r}}}}}, "
+                f"viscosity: {{q_lin: 0.5, q_quad: 2.0}}, eos: {{mie_gruneisen_shock: {{c0: {x['c0']!r}, "
+                f"S1: {x['s']!r}, gamma0: {x['Gamma0']!r}}}}}}}\n")
     return Problem(f"shock in {name}, {1e-3 * u:g} km/s",
                    lambda cells: strip(cells, end, material, {"plate": ("m", 0.0, length, -u)}, length),
-                   {"velocity": (velocity("plate"), -0.25 * u), "thickness": ("kind: extent, body: plate, axis: z", length - u * end),
+                   {"velocity": (velocity("plate"), -0.25 * u),
+                    "thickness": ("kind: extent, body: plate, axis: z", length - u * end),
                     "density": (mean("plate", "density", inside), exact["rho"]),
                     "pressure": (mean("plate", "pressure", inside), x["rho0"] * exact["U"] * u),
                     "energy": (mean("plate", "internal_energy", inside), exact["e"]),
@@ -73,7 +75,8 @@ def noh(kind):
     d = {"planar": 1, "cylindrical": 2, "spherical": 3}[kind]
     frame = "axisymmetric" if d == 3 else "plane_strain"
     a = "r" if d == 3 else "x"
-    shape = ("{box: {min: [-1, 0, 0], max: [1, 1, 1]}}" if d == 1 else "{sphere: {radius: 1, center: [0, 0, 0]}}" if d == 3 else
+    shape = ("{box: {min: [-1, 0, 0], max: [1, 1, 1]}}" if d == 1 else "{sphere: {radius: 1, center: [0, 0, 0]}}"
+             if d == 3 else
              "{cylinder: {radius: 1, height: 1, axis: y, base: [0, -0.5, 0]}}")
     speed = "[0, -1]" if d == 1 else f'["-{a}/sqrt({a}^2+z^2)", "-z/sqrt({a}^2+z^2)"]'
 
@@ -81,12 +84,15 @@ def noh(kind):
         h = 1 / cells
         wide = 8 * h if d == 1 else 1 + 4 * h
         return (f"frame: {frame}\ngrid: {{cell: {h!r}, box: {{min: [0, 0], max: [{wide!r}, {1 + 4 * h!r}]}}, boundary: "
-                f"{{{NOH_SIDES[kind]}}}}}\ntime: {{end: 0.6}}\nmaterials: {{gas: {{density: 1, eos: {{ideal_gas: {{gamma: "
-                f"1.6666666666667, initial_pressure: 1e-6}}}}, viscosity: {{}}}}}}\nbodies: {{a: {{material: gas, shape: {shape}, "
+                f"{{{NOH_SIDES[kind]}}}}}\ntime: {{end: 0.6}}\nmaterials: {{gas: "
+                f"{{density: 1, eos: {{ideal_gas: {{gamma: "
+                f"1.6666666666667, initial_pressure: "
+                f"1e-6}}}}, viscosity: {{}}}}}}\nbodies: {{a: {{material: gas, shape: {shape}, "
                 f"velocity: {speed}}}}}\noutput: {{frames: 0, history: 0.1}}\n")
     inside = "z_min: 0.05, z_max: 0.12" + ("" if d == 1 else f", {a}_max: 0.12")
     return Problem(f"Noh, {kind}", scene,
-                   {"energy": (mean("a", "internal_energy"), 0.5 * 4.0**d * 0.2**d), "density": (mean("a", "density", inside), 4.0**d),
+                   {"energy": (mean("a", "internal_energy"), 0.5 * 4.0**d * 0.2**d),
+                    "density": (mean("a", "density", inside), 4.0**d),
                     "edge": ("kind: max, body: a, axis: z", 0.4)}, FINE if d == 1 else (20, 40, 80), d > 1)
 
 
@@ -126,8 +132,9 @@ def bar_mode():
 
 
 def bar_wall():
-    return Problem("bar against a plane", lambda cells: strip(cells, 0.6 / C, elastic(), {"bar": ("steel", 0.0, 1.0, -1.0)}),
-                   {"velocity": (velocity("bar"), -0.4), "stress": (mean("bar", "pressure", "z_min: 0.1, z_max: 0.4"), K / C)})
+    return Problem("bar against a plane", lambda cells: strip(
+        cells, 0.6 / C, elastic(), {"bar": ("steel", 0.0, 1.0, -1.0)}),
+        {"velocity": (velocity("bar"), -0.4), "stress": (mean("bar", "pressure", "z_min: 0.1, z_max: 0.4"), K / C)})
 
 
 def plastic_wall():
@@ -151,9 +158,11 @@ def bars(name, k_other):
     v = z1 / (z1 + z2)  # of the joint, striker at 1 m/s
     end = 0.4 / max(C, other)
     return Problem(f"contact of {name} bars", lambda cells: strip(
-        cells, end, elastic() + elastic("other", k=k_other), {"low": ("other", 0.0, 0.5, 0), "up": ("steel", 0.5, 1.0, -1)},
+        cells, end, elastic() + elastic("other", k=k_other),
+        {"low": ("other", 0.0, 0.5, 0), "up": ("steel", 0.5, 1.0, -1)},
         side="open", more="contact: {friction: 0}\n"),
-        {"struck": (velocity("low"), -z2 * v * end / (RHO * 0.5)), "striker": (velocity("up"), -1 + z2 * v * end / (RHO * 0.5)),
+        {"struck": (velocity("low"), -z2 * v * end / (RHO * 0.5)),
+         "striker": (velocity("up"), -1 + z2 * v * end / (RHO * 0.5)),
          "joint": (velocity("low", "z_min: 0.3, z_max: 0.45"), -v)})
 
 
@@ -166,8 +175,10 @@ def gas_wall():
     end = 0.7 / speed
     front = (speed - u) * end
     inside = f"z_min: {0.3 * front!r}, z_max: {0.8 * front!r}"
-    material = f"  gas: {{density: 1, eos: {{ideal_gas: {{gamma: {gamma}, initial_pressure: 1}}}}, viscosity: {{q_lin: 0.3, q_quad: 2}}}}\n"
-    return Problem("gas against a wall", lambda cells: strip(cells, end, material, {"gas": ("gas", 0.0, 1.0, -u)}, room=1).replace(
+    material = (f"  gas: {{density: 1, eos: {{ideal_gas: {{gamma: {gamma}, initial_pressure: 1}}}}, "
+                "viscosity: {q_lin: 0.3, q_quad: 2}}\n")
+    return Problem("gas against a wall", lambda cells: strip(cells, end, material, {"gas": ("gas", 0.0, 1.0, -u)},
+                                                             room=1).replace(
         "z_min: symmetry", "z_min: wall, z_max: open"),
         {"pressure": (mean("gas", "pressure", inside), p), "density": (mean("gas", "density", inside), rho)})
 
@@ -176,16 +187,19 @@ def pushed():
     """A pressure on the end of a fluid rod: velocity behind the wave p/(rho c), impulse p t."""
     c, rho, p = 1500.0, 1000.0, 1e5
     end = 0.6 / c
-    material = f"  water: {{density: {rho!r}, eos: {{mie_gruneisen_shock: {{c0: {c!r}, S1: 0, gamma0: 0}}}}, viscosity: {{}}}}\n"
+    material = (f"  water: {{density: {rho!r}, eos: {{mie_gruneisen_shock: {{c0: {c!r}, S1: 0, gamma0: 0}}}}, "
+                "viscosity: {}}\n")
     return Problem("pressure on a face", lambda cells: strip(
         cells, end, material, {"rod": ("water", 0.0, 1.0, 0)}, side="open",
         more=f"loads: {{push: {{body: rod, face: z_max, pressure: {p!r}, where: {{z_min: 0.7}}}}}}\n"),
-        {"velocity": (velocity("rod"), -p * end / rho), "behind": (velocity("rod", "z_min: 0.6, z_max: 0.9"), -p / (rho * c)),
+        {"velocity": (velocity("rod"), -p * end / rho),
+         "behind": (velocity("rod", "z_min: 0.6, z_max: 0.9"), -p / (rho * c)),
          "pressure": (mean("rod", "pressure", "z_min: 0.6, z_max: 0.9"), p)})
 
 
 def breathing(kind):
-    """Radial mode of an elastic sphere or cylinder (plane strain), nu = 1/4, at an eighth of its period: u ~ j1, J1(xi r)."""
+    """Radial mode of an elastic sphere or cylinder (plane strain), nu = 1/4, at an eighth of its period: u ~ j1, J1(xi
+    r)."""
     k, g, rho = 5 / 3, 1.0, 1.0
     c, amplitude = np.sqrt((k + 4 / 3 * g) / rho), 1e-4
     sphere = kind == "sphere"
@@ -198,7 +212,8 @@ def breathing(kind):
     frame, a = ("axisymmetric", "r") if sphere else ("plane_strain", "x")
     end = 0.25 * np.pi / (xi * c)
     form = "+".join(f"({s * xi ** (2 * n)!r})*({a}^2+z^2)^{n}" if n else repr(s) for n, s in enumerate(series))
-    shape = "{sphere: {radius: 1, center: [0, 0, 0]}}" if sphere else "{cylinder: {radius: 1, height: 1, axis: y, base: [0, -0.5, 0]}}"
+    shape = ("{sphere: {radius: 1, center: [0, 0, 0]}}" if sphere else
+             "{cylinder: {radius: 1, height: 1, axis: y, base: [0, -0.5, 0]}}")
 
     def mode(r):
         return r * sum(s * (xi * r) ** (2 * n) for n, s in enumerate(series))
@@ -208,15 +223,19 @@ def breathing(kind):
 
     def scene(cells):
         h = 1 / cells
-        return (f"frame: {frame}\ngrid: {{cell: {h!r}, box: {{min: [0, 0], max: [{1 + 3 * h!r}, {1 + 3 * h!r}]}}, boundary: "
-                f"{{{a}_min: {'axis' if sphere else 'symmetry'}, z_min: symmetry}}}}\ntime: {{end: {end!r}}}\nmaterials: {{m: "
-                f"{{density: {rho}, bulk_modulus: {k!r}, shear_modulus: {g}, eos: linear, strength: elastic}}}}\nbodies: {{b: {{material: "
-                f"m, shape: {shape}, velocity: [\"{amplitude}*{a}*({form})\", \"{amplitude}*z*({form})\"]}}}}\noutput: {{frames: 0, "
+        return (f"frame: {frame}\ngrid: "
+                f"{{cell: {h!r}, box: {{min: [0, 0], max: [{1 + 3 * h!r}, {1 + 3 * h!r}]}}, boundary: "
+                f"{{{a}_min: {'axis' if sphere else 'symmetry'}, z_min: symmetry}}}}\ntime: {{end: "
+                f"{end!r}}}\nmaterials: {{m: "
+                f"{{density: {rho}, bulk_modulus: {k!r}, shear_modulus: {g}, eos: linear, strength: elastic}}}}\n"
+                f"bodies: {{b: {{material: m, shape: {shape}, velocity: [\"{amplitude}*{a}*({form})\", "
+                f"\"{amplitude}*z*({form})\"]}}}}\noutput: {{frames: 0, "
                 f"history: {end / 10!r}}}\n")
-    return Problem(f"breathing {kind}", scene, {"velocity": (velocity("b"), amplitude * np.sqrt(0.5) * share)}, (10, 20, 40, 80), True)
+    exact = amplitude * np.sqrt(0.5) * share
+    return Problem(f"breathing {kind}", scene, {"velocity": (velocity("b"), exact)}, (10, 20, 40, 80), True)
 
 
 def problems():
-    return [*(shock(name, u) for name, u in zip(MATERIALS, (1000, 2000, 3000, 1500))), shock("copper", 500), *map(noh, NOH_SIDES),
-            sod(), bar_mode(), bar_wall(), plastic_wall(), bars("equal", K), bars("unequal", 0.3 * K), gas_wall(), pushed(),
-            breathing("sphere"), breathing("cylinder")]
+    return [*(shock(name, u) for name, u in zip(MATERIALS, (1000, 2000, 3000, 1500))), shock("copper", 500),
+            *map(noh, NOH_SIDES), sod(), bar_mode(), bar_wall(), plastic_wall(), bars("equal", K),
+            bars("unequal", 0.3 * K), gas_wall(), pushed(), breathing("sphere"), breathing("cylinder")]

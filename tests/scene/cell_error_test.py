@@ -27,7 +27,8 @@ def sequences():
         check(abs(found - order) < 1e-9 and off < band < 1.001 * most,
               f"order {order} is found; the band is a quarter more than the distance to the limit", f"{band:.3g}")
     band, found, _ = error([3.0 + 0.4 * h**2 for h in (0.4, 0.2, 0.1)])
-    check(abs(found - 2) < 1e-9 and band > 3 * 0.4 * (0.2**2 - 0.1**2) * 0.999, "order 2 is not believed of an impact", band)
+    check(abs(found - 2) < 1e-9 and band > 3 * 0.4 * (0.2**2 - 0.1**2) * 0.999, "order 2 is not believed of an impact",
+          band)
     random = np.random.default_rng(1)
     inside = []
     for _ in range(4000):
@@ -63,13 +64,15 @@ def more_than_three():
     found = estimate([1, 0.7, 0.4, 0.1], [1 + 0.1 * x for x in (1, 0.7, 0.4, 0.1)])
     check(abs(found.order - 1) < 1e-3 and abs(found.limit - 1) < 1e-5, "cells need no common ratio", found)
     found = estimate(h, 1 + 0.1 * (-1.0) ** np.arange(5))
-    check(found.behaviour in ("wavers", "is noisy") and found.order is None and found.uncertainty >= 0.2, "oscillation is said", found)
+    check(found.behaviour in ("wavers", "is noisy") and found.order is None and found.uncertainty >= 0.2,
+          "oscillation is said", found)
     lattices = np.concatenate([x * np.array([1, 0.96, 1.04]) for x in h[:3]])
     values = 1 + 0.01 * lattices + 0.002 * np.tile([0, 1, -1], 3)
     found = estimate(lattices, values)
     check(found.scatter > 0.0039 and found.uncertainty >= found.scatter and found.value == values[6],
           "the band is at least the spread of shifted lattices; the answer is the unshifted one's", found)
-    check(not estimate([1], [2]).known and not estimate([1, 0.5, 0.25], [1, np.nan, 1]).known, "what is not known is said")
+    check(not estimate([1], [2]).known and not estimate([1, 0.5, 0.25], [1, np.nan, 1]).known,
+          "what is not known is said")
     random = np.random.default_rng(2)
     for cells in (4, 5, 6):
         for ratio in (1.5, 2.0):
@@ -77,7 +80,8 @@ def more_than_three():
                 x, order = ratio ** -np.arange(cells), random.uniform(0.6, 2)
                 return x, 1 + 0.1 * x**order + 10 ** random.uniform(-4, -1) * random.normal(size=cells)
             share, wide = coverage(make)
-            check(share >= 0.9 and wide < 6, f"{cells} cells, ratio {ratio}: nine in ten limits lie in the band", (share, wide))
+            check(share >= 0.9 and wide < 6, f"{cells} cells, ratio {ratio}: nine in ten limits lie in the band",
+                  (share, wide))
 
 
 def model_error():

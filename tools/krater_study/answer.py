@@ -57,9 +57,10 @@ def percent(part, whole):
 
 def failed_sentences(rows):
     """Members that gave nothing, with their reasons: an answer must not pass them over."""
-    return [f"Member {row.member.name} {row.status}: {row.reason}." for row in rows if row.status in ("failed", "interrupted")
-            ] + ([f"{left} members were not run: no time was left."] if (left := sum(row.status == "left" for row in rows))
-                 else [])
+    lines = [f"Member {row.member.name} {row.status}: {row.reason}." for row in rows
+             if row.status in ("failed", "interrupted")]
+    left = sum(row.status == "left" for row in rows)
+    return lines + ([f"{left} members were not run: no time was left."] if left else [])
 
 
 def reference_of(study, rows, name):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Command line of `krater study` and `krater run --accuracy`. Exit codes are krater's: 0 done, 2 bad input, 3 nothing to
-answer with, 4 stopped before its end (the same command goes on), 5 an accuracy that was not reached."""
+"""Command line of `krater study` and `krater run --accuracy`. Exit codes are krater's: 0 done, 2 bad input, 3 nothing
+to answer with, 4 stopped before its end (the same command goes on), 5 an accuracy that was not reached."""
 
 import argparse
 import fcntl
@@ -30,14 +30,18 @@ def say(line):
 
 def options(words):
     parser = argparse.ArgumentParser(
-        prog="krater study", description="Many runs of one scene: convergence, pareto, ablation, sweep, ballistic_limit, "
+        prog="krater study", description="Many runs of one scene: convergence, pareto, ablation, sweep, "
+        "ballistic_limit, "
         "calibrate (inputs/studies/ has an example of each). A study goes on from what lies in its folder.")
     parser.add_argument("file", help="study file (YAML)")
     parser.add_argument("-j", type=int, default=os.cpu_count(), metavar="N", help="cores (default: all)")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: FILE_study)")
-    parser.add_argument("--budget", metavar="TIME", help="wall time, as 20min; what does not fit is left for another time")
-    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="override a value of every member")
-    parser.add_argument("--list", action="store_true", help="print one shell command per member that is not done, and stop")
+    parser.add_argument("--budget", metavar="TIME", help="wall time, as 20min; what does not fit is left for another "
+                        "time")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
+                        help="override a value of every member")
+    parser.add_argument("--list", action="store_true", help="print one shell command per member that is not done, and "
+                        "stop")
     parser.add_argument("--collect", action="store_true", help="run nothing: answer with what is done")
     return parser.parse_args(words)
 
@@ -58,8 +62,8 @@ def require_same(study, folder):
     changed = [key for key in dict.fromkeys([*before, *now]) if before.get(key) != now.get(key)]
     if before and changed and any(os.scandir(os.path.join(folder, "members"))):
         key = changed[0]
-        study.fail(key, f"changed since the members in {folder} were made ({', '.join(changed)}): their results would be told "
-                   f"of other runs; choose another folder with -o, or remove {folder}")
+        study.fail(key, f"changed since the members in {folder} were made ({', '.join(changed)}): their results would "
+                   f"be told of other runs; choose another folder with -o, or remove {folder}")
     write_json(os.path.join(folder, "study.lock.json"), now)
 
 
@@ -70,7 +74,8 @@ def lock(folder):
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
-        raise InputError(f"{folder}: another study writes there; wait for it, or choose another folder with -o") from None
+        raise InputError(f"{folder}: another study writes there; wait for it, or choose another folder with "
+                         "-o") from None
     return handle
 
 
@@ -78,7 +83,8 @@ def locate(study, error):
     """An error that krater found in an override, told at the line of the study file that made it."""
     message = str(error)
     if "repeats" in study.keys and "must lie on a node line" in message:
-        return InputError(f"{study.path}:{study.line('repeats')}: repeats: this scene has conditions at both sides of an axis, so "
+        return InputError(f"{study.path}:{study.line('repeats')}: repeats: this scene has conditions at both sides of "
+                          f"an axis, so "
                           f"its cell cannot be a little smaller or larger; leave repeats out\n  {message}")
     if message.startswith("--set "):
         path = message[6:].split("=", 1)[0]
@@ -118,7 +124,8 @@ def foretell(engine, members):
         return
     cheapest = min(engine.seconds(one) for one in members if not engine.row(one).done)
     if engine.budget and not engine.measured and cheapest / engine.jobs > engine.budget:
-        raise InputError(f"budget: {text_of(engine.budget)} is below one run: the cheapest member takes about {text_of(cheapest)}; "
+        raise InputError(f"budget: {text_of(engine.budget)} is below one run: the cheapest member takes about "
+                         f"{text_of(cheapest)}; "
                          "give more, or coarser cells")
     say(f"krater study: {count} of {len(members)} members to run, about {text_of(core)} of core time "
         f"({text_of(core / engine.jobs)} on {engine.jobs} cores), at most {memory / 1e6:.0f} MB each"
@@ -193,7 +200,8 @@ def tell(study, question, rows, folder, more):
                 study.measures.remove(name)
                 say(f"krater run: {name} has no value in any run; it is left out")
                 continue
-            study.fail("measures", f"'{name}' has no value in any of the {len(done)} members that are done (the body is gone, or "
+            study.fail("measures", f"'{name}' has no value in any of the {len(done)} members that are done (the body "
+                       f"is gone, or "
                        "the outcome is open); leave it out, or change `time.end`")
     answer = question.answer(rows)
     page = results.write(folder, study, rows, answer)

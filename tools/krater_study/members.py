@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Members of a study: runs as child processes, each with a folder of its own. What is done is told by what lies on disk:
+"""Members of a study: runs as child processes, each with a folder of its own. What is done is told by what lies on
+disk:
 
     FOLDER/members/NAME/     results of `krater run`; done where its summary.json says so
     FOLDER/members/NAME.json cost, exit code and reason; NAME.log: what the run said
 
-A crash is a row with its reason. At the end of the budget members get SIGTERM, write a checkpoint and go on from it later.
+A crash is a row with its reason. At the end of the budget members get SIGTERM, write a checkpoint and go on from it
+later.
 """
 
 import ctypes
@@ -70,8 +72,10 @@ class Row:
 
 def member(values, extra=()):
     """A member whose name tells its values: cell=0.381mm."""
-    name = ",".join(f"{path.rsplit('.', 1)[-1]}={re.sub(r'[^A-Za-z0-9.+-]', '', text)}" for path, text in values.items())
-    return Member(name[:100] or "as_it_is", [*extra, *(f"{path}={text}" for path, text in values.items())], dict(values))
+    name = ",".join(f"{path.rsplit('.', 1)[-1]}={re.sub(r'[^A-Za-z0-9.+-]', '', text)}"
+                    for path, text in values.items())
+    return Member(name[:100] or "as_it_is", [*extra, *(f"{path}={text}" for path, text in values.items())],
+                  dict(values))
 
 
 def die_with_parent():
@@ -118,7 +122,8 @@ class Engine:
             row.reason = told.get("reason") or str(row.summary.get("message", "failed"))
             row.summary = {}
         elif status == "interrupted" or os.path.exists(os.path.join(self.place(one.name), "checkpoint.h5")):
-            row.status, row.reason, row.summary = "interrupted", "stopped before its end; goes on from its checkpoint", {}
+            row.status, row.summary = "interrupted", {}
+            row.reason = "stopped before its end; goes on from its checkpoint"
         return row
 
     @staticmethod
@@ -143,14 +148,17 @@ class Engine:
                 words = [KRATER, "check", self.scene]
                 for text in (*self.fixed, *one.settings):
                     words += ["--set", text]
-                children.append((one, subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)))
+                children.append((one, subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                                       text=True)))
             for one, child in children:
                 out, error = child.communicate()
                 if child.returncode == 2:
                     raise InputError(error.strip())
                 found = ESTIMATE.search(out)
-                self.forecasts[one.name] = (float(found[1]) * BYTES.get(found[2], 1), float(found[3]) *
-                                            SECONDS.get(found[4], 86400 if found[4] == "days" else 1)) if found else (0, 0)
+                self.forecasts[one.name] = (0, 0)
+                if found:
+                    unit = SECONDS.get(found[4], 86400 if found[4] == "days" else 1)
+                    self.forecasts[one.name] = (float(found[1]) * BYTES.get(found[2], 1), float(found[3]) * unit)
 
     def seconds(self, one):
         """Core seconds that a member will take: its forecast by the ratio that finished members had."""
@@ -180,7 +188,8 @@ class Engine:
                     threads = max(self.threads, self.jobs // (len(waiting) + len(running) + 1))
                     if self.too_late(one, threads):
                         self.over = True
-                        rows[one.name] = Row(one, rows[one.name].status, f"no time left for its {text_of(self.seconds(one))}")
+                        rows[one.name] = Row(one, rows[one.name].status,
+                                             f"no time left for its {text_of(self.seconds(one))}")
                         continue
                     running.append(self.start(one, rows[one.name].status == "interrupted", threads))
                 for child in [child for child in running if child.ended()]:
@@ -250,7 +259,8 @@ class Child:
         with open(self.log, "w", encoding="utf-8") as log:
             # Its own group: a Ctrl-C is for the study, which then asks its members one by one.
             self.process = subprocess.Popen(words, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
-                                            preexec_fn=die_with_parent, env={"OMP_WAIT_POLICY": "passive", **os.environ})
+                                            preexec_fn=die_with_parent,
+                                            env={"OMP_WAIT_POLICY": "passive", **os.environ})
 
     def age(self):
         return time.monotonic() - self.begin

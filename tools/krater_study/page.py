@@ -5,7 +5,8 @@ import html
 import re
 
 STYLE = """
-:root { --ink: #1b2733; --soft: #5b6875; --line: #dfe4e9; --paper: #ffffff; --shade: #f5f7f9; --blue: #1f5f99; --red: #b5402a; }
+:root { --ink: #1b2733; --soft: #5b6875; --line: #dfe4e9; --paper: #ffffff; --shade: #f5f7f9;
+  --blue: #1f5f99; --red: #b5402a; }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--shade); color: var(--ink); font: 15px/1.55 system-ui, "DejaVu Sans", sans-serif; }
 main { max-width: 1080px; margin: 0 auto; padding: 40px 44px 64px; background: var(--paper); min-height: 100vh; }
@@ -22,7 +23,8 @@ figure { margin: 18px 0; } figure svg { width: 100%; height: auto; max-width: 10
 figcaption { color: var(--soft); font-size: 13px; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 13px; width: 100%; font-variant-numeric: tabular-nums; }
-th { text-align: left; font-weight: 600; color: var(--soft); border-bottom: 1.5px solid var(--line); padding: 6px 10px 6px 0; }
+th { text-align: left; font-weight: 600; color: var(--soft); border-bottom: 1.5px solid var(--line);
+  padding: 6px 10px 6px 0; }
 td { border-bottom: 1px solid var(--line); padding: 6px 10px 6px 0; vertical-align: top; white-space: nowrap; }
 td.text { white-space: normal; min-width: 150px; } tr.bad td { color: var(--red); }
 code { font: 12.5px/1.5 "DejaVu Sans Mono", monospace; background: var(--shade); padding: 1px 4px; border-radius: 3px; }
@@ -41,7 +43,8 @@ def number(value):
 
 
 def table(titles, rows, bad=()):
-    lines = ["<div class=wide><table><thead><tr>", *(f"<th>{text(title)}</th>" for title in titles), "</tr></thead><tbody>"]
+    lines = ["<div class=wide><table><thead><tr>", *(f"<th>{text(title)}</th>" for title in titles),
+             "</tr></thead><tbody>"]
     for k, row in enumerate(rows):
         lines.append("<tr class=bad>" if k in bad else "<tr>")
         lines += [f"<td class=text>{cell}</td>" if len(cell) > 40 else f"<td>{cell}</td>" for cell in map(number, row)]
@@ -69,7 +72,8 @@ def page(made, rows, answer, columns, drawn):
            f"<code>{text(made['study'])}</code> &middot; {text(made['program'])}</p><div class=figures>",
            *(f"<div><b>{text(a)}</b><span>{text(b)}</span></div>" for a, b in facts), "</div>"]
     if answer.sentences:
-        out += ["<h2>What it says</h2><ul class=said>", *(f"<li>{text(line)}</li>" for line in answer.sentences), "</ul>"]
+        out += ["<h2>What it says</h2><ul class=said>", *(f"<li>{text(line)}</li>" for line in answer.sentences),
+                "</ul>"]
     for picture in answer.pictures:
         out.append(f"<figure>{svg(drawn[picture.name])}<figcaption>{text(picture.caption)}</figcaption></figure>")
     for one in answer.tables:
@@ -77,9 +81,12 @@ def page(made, rows, answer, columns, drawn):
     out.append("<h2>Members</h2>" + table(
         [f"{title} [{unit}]" if unit and unit != "1" else title for title, unit, _ in columns],
         list(zip(*(values for *_, values in columns))), {k for k, row in enumerate(rows) if not row.done}))
-    out.append(f"<h2>How it was made</h2><p>On {text(machine['host'])}, {machine['cores']} cores of {text(machine['processor'])}, "
-               f"{machine['clock_MHz'] or 0:.0f} MHz, numpy triad {machine['triad_GB_per_s']} GB/s on one core, load average "
-               f"{machine['load_average']:.1f}. Core-seconds are user and system time of a member's process; wall times under "
+    out.append(f"<h2>How it was made</h2><p>On {text(machine['host'])}, {machine['cores']} cores of "
+               f"{text(machine['processor'])}, "
+               f"{machine['clock_MHz'] or 0:.0f} MHz, numpy triad {machine['triad_GB_per_s']} GB/s on one core, load "
+               f"average "
+               f"{machine['load_average']:.1f}. Core-seconds are user and system time of a member's process; wall "
+               f"times under "
                "load are not those of a quiet machine. Every number of this page is in <code>study.csv</code>, "
                "<code>study.h5</code> and <code>study.json</code> beside it; each member's results lie in "
                "<code>members/</code>.</p></main></body></html>\n")

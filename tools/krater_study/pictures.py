@@ -8,8 +8,10 @@ import numpy as np
 from answer import scaled
 
 INK, BLUE, RED, GREY, GOLD = "#1b2733", "#1f5f99", "#b5402a", "#8794a1", "#c98a1b"
-STYLE = {"font.family": "DejaVu Sans", "font.size": 9, "axes.edgecolor": GREY, "axes.labelcolor": INK, "text.color": INK,
-         "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10,
+STYLE = {"font.family": "DejaVu Sans", "font.size": 9, "axes.edgecolor": GREY, "axes.labelcolor": INK,
+         "text.color": INK,
+         "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False,
+         "axes.titlesize": 10,
          "axes.titlelocation": "left", "axes.grid": True, "grid.color": "#e6eaee", "legend.frameon": False,
          "svg.fonttype": "none", "svg.hashsalt": "krater", "figure.constrained_layout.use": True}
 
@@ -57,7 +59,7 @@ def convergence(figure, curves):
         axes.set_xlabel("cell [mm]")
         axes.set_ylabel(unit or "-")
         word = c["behaviour"] + (f", order {c['order']:.1f}" if c["order"] else "")
-        axes.text(0.02, 0.03, word, transform=axes.transAxes, color=GREY, fontsize=8)
+        axes.set_title(word, loc="right", color=GREY, fontsize=8)
 
 
 def cost(figure, curves):
@@ -86,7 +88,8 @@ def front(figure, clouds):
         on = sorted(c["front"], key=lambda i: t[i])
         axes.loglog(t[on], e[on], "o-", color=BLUE, ms=5, lw=1, mec="white")
         for i in on:
-            axes.annotate(c["labels"][i], (t[i], e[i]), xytext=(4, 4), textcoords="offset points", fontsize=6.5, color=INK)
+            axes.annotate(c["labels"][i], (t[i], e[i]), xytext=(4, 4), textcoords="offset points", fontsize=6.5,
+                          color=INK)
         axes.set_title(name)
         axes.set_xlabel("core-seconds")
         axes.set_ylabel("error [%]")
@@ -125,7 +128,8 @@ def limit(figure, shots, fit, unit):
         axes.axvspan(low, high, color=GOLD, alpha=0.18, lw=0)
         top = max(v for v, _, _ in shots) * 1.03
         v = np.linspace(fit["limit"], top, 200)
-        axes.plot(v, fit["a"] * np.maximum(v ** fit["p"] - fit["limit"] ** fit["p"], 0) ** (1 / fit["p"]), color=BLUE, lw=1)
+        axes.plot(v, fit["a"] * np.maximum(v ** fit["p"] - fit["limit"] ** fit["p"], 0) ** (1 / fit["p"]), color=BLUE,
+                  lw=1)
         axes.axvline(fit["limit"], color=GOLD, lw=1)
     axes.set_xlabel(f"impact speed [{unit}]")
     axes.set_ylabel("residual speed [m/s]")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """convergence: how wrong is each measure, and what would less error cost?
 
-Repeats are lattices shifted by parts of a cell: cells a few per cent smaller and larger, so that what lies ten cells from
-the grid's origin lies up to 0.4 of a cell elsewhere. A shift of the grid itself would do nothing to a body that stands
-between an axis and a wall; and the small change of the cell is one that the fit knows how to take."""
+Repeats are lattices shifted by parts of a cell: cells a few per cent smaller and larger, so that what lies ten cells
+from the grid's origin lies up to 0.4 of a cell elsewhere. A shift of the grid itself would do nothing to a body that
+stands between an axis and a wall; and the small change of the cell is one that the fit knows how to take."""
 
 import numpy as np
 
@@ -50,7 +50,8 @@ class Convergence:
         answer = Answer(failed_sentences(rows))
         done = [row for row in rows if row.done]
         law = self.cost_law(done)
-        table = Table("What is known of each measure", ["measure", "answer", "of it", "order", "how", "small cells"], [])
+        table = Table("What is known of each measure", ["measure", "answer", "of it", "order", "how", "small cells"],
+                      [])
         costs = Table("Core-seconds of the cheapest cell for an uncertainty",
                       ["measure", *(f"{100 * target:g} %" for target in TARGETS)], [])
         curves = {}
@@ -59,18 +60,20 @@ class Convergence:
                                                           for row in done])
             curves[name] = self.curve(name, done, found)
             unit = curves[name]["unit"]
-            table.rows.append([name, with_band(found.value, found.uncertainty, unit), percent(found.uncertainty, found.value),
-                               number(found.order, 2), found.how, number(found.limit and found.limit * scaled(unit)[0], 5)])
+            table.rows.append([name, with_band(found.value, found.uncertainty, unit),
+                               percent(found.uncertainty, found.value), number(found.order, 2), found.how,
+                               number(found.limit and found.limit * scaled(unit)[0], 5)])
             costs.rows.append([name, *(self.price(name, done, found, target, law) for target in TARGETS)])
             answer.sentences += self.sentences(name, curves[name], found)
-        answer.data = {"measures": curves, "cost_law": law and {"point_steps_at_1m": law[0], "power_of_cell": law[1],
-                                                                   "core_seconds_per_point_step": law[2]}}
+        answer.data = {"measures": curves, "cost_law": law and {
+            "point_steps_at_1m": law[0], "power_of_cell": law[1], "core_seconds_per_point_step": law[2]}}
         if law:
-            answer.sentences.append(f"Point-steps grow as cell^{law[1]:.2f}: half the cell takes {2 ** -law[1]:.1f} times as "
-                                    f"many, {1e9 * law[2]:.3g} ns of a core each.")
+            answer.sentences.append(f"Point-steps grow as cell^{law[1]:.2f}: half the cell takes {2 ** -law[1]:.1f} "
+                                    f"times as many, {1e9 * law[2]:.3g} ns of a core each.")
         answer.tables = [table, costs]
-        answer.pictures = [Picture("convergence", "Each measure against the cell; the shaded band is where its limit of small "
-                                   "cells lies in nine of ten cases.", lambda figure: pictures.convergence(figure, curves)),
+        answer.pictures = [Picture("convergence", "Each measure against the cell; the shaded band is where its limit "
+                                   "of small cells lies in nine of ten cases.",
+                                   lambda figure: pictures.convergence(figure, curves)),
                            Picture("cost", "Distance to the limit against cost.",
                                    lambda figure: pictures.cost(figure, curves))]
         return answer
@@ -86,7 +89,8 @@ class Convergence:
 
     def curve(self, name, done, found):
         return {"unit": next((row.unit(name) for row in done), ""), "cells": [row.cell for row in done],
-                "values": [row.measure(name) for row in done], "core_seconds": [row.cost["core_seconds"] for row in done],
+                "values": [row.measure(name) for row in done],
+                "core_seconds": [row.cost["core_seconds"] for row in done],
                 "value": found.value, "uncertainty": found.uncertainty if found.known else None, "limit": found.limit,
                 "order": found.order, "behaviour": found.behaviour, "how": found.how, "scatter": found.scatter,
                 "reference": reference_of(self.study, done, name)}
@@ -95,10 +99,12 @@ class Convergence:
     def sentences(name, curve, found):
         if not found.known:
             missing = [f"{1e3 * cell:.4g} mm" for cell, value in zip(curve["cells"], curve["values"]) if value is None]
-            yield f"{name}: no error can be said: it {found.behaviour}{' (' + ', '.join(missing) + ')' if missing else ''}."
+            where = f" ({', '.join(missing)})" if missing else ""
+            yield f"{name}: no error can be said: it {found.behaviour}{where}."
             return
         if found.behaviour in ("wavers", "is noisy", "changes more and more"):
-            yield (f"{name} {found.behaviour} with the cell: it has no order, and its band is the spread that was seen. These "
+            yield (f"{name} {found.behaviour} with the cell: it has no order, and its band is the spread that was "
+                   f"seen. These "
                    "cells do not answer the question better than that.")
         if len(levels_of(np.array(curve["cells"]))) == 2:
             yield f"{name}: two cells show no order, and may agree by accident: a third would tell."
@@ -107,9 +113,12 @@ class Convergence:
             said = validation(found, value, half or 0.0)
             scale, unit = scaled(curve["unit"])
             curve["validation"] = said
-            yield (f"{name} is {scale * said['difference']:+.4g} {unit} ({100 * said['difference'] / abs(value or 1):+.2f} %) off "
-                   f"{scale * value:.5g} {unit} ({source}); the model's error lies between {scale * said['from']:+.3g} and "
-                   f"{scale * said['to']:+.3g} {unit}" + ("" if half is not None else " (if the test has no error of its own)") +
+            yield (f"{name} is {scale * said['difference']:+.4g} {unit} "
+                   f"({100 * said['difference'] / abs(value or 1):+.2f} %) off "
+                   f"{scale * value:.5g} {unit} ({source}); the model's error lies between {scale * said['from']:+.3g} "
+                   f"and "
+                   f"{scale * said['to']:+.3g} {unit}" + ("" if half is not None
+                                                          else " (if the test has no error of its own)") +
                    f": {said['words']}.")
 
     @staticmethod

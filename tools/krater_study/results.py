@@ -137,8 +137,8 @@ def write(folder, study, rows, answer):
 
 
 def write_bands(path, scene, curves):
-    """The band of every measure at every cell, for `krater run` to find (app/known_error.hpp): that of the finest, and the
-    distance to the finest added for the others."""
+    """The band of every measure at every cell, for `krater run` to find (app/known_error.hpp): that of the finest, and
+    the distance to the finest added for the others."""
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(f"# scene {os.path.basename(scene)}\n")
         for name, c in curves.items():

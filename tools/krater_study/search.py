@@ -5,7 +5,8 @@ ballistic_limit halves an interval of speeds whose ends were not perforated and 
 
     v_r = a (v^p - v_bl^p)^(1/p),    0 < a <= 1,  p = 2 where fewer than five shots perforated
 
-to the residual speeds. Two intervals are said: that of the shots, which is certain, and that of the fit (95 %, Student).
+to the residual speeds. Two intervals are said: that of the shots, which is certain, and that of the fit (95 %,
+Student).
 """
 
 import dataclasses
@@ -37,7 +38,8 @@ class BallisticLimit:
             if key not in ("path", "between", "tolerance"):
                 study.fail(f"speed/{key}", "unknown key (known: path, between, tolerance)")
         if "path" not in speed or "between" not in speed:
-            study.fail("speed", "expected {path: bodies.rod.velocity.speed, between: [200 m/s, 400 m/s], tolerance: 5 m/s}")
+            study.fail("speed", "expected {path: bodies.rod.velocity.speed, between: [200 m/s, 400 m/s], tolerance: 5 "
+                       "m/s}")
         self.path = str(speed["path"])
         study.check_paths("speed", [self.path])
         self.low, self.high = study.between(speed["between"], "speed/between")
@@ -61,9 +63,13 @@ class BallisticLimit:
         word = found.get("main_piece_outcome") or found.get("outcome")
         return {"perforated": True, "stopped": False, "ricocheted": False}.get(word)
 
+    def word(self, row):
+        return str(row.summary.get("outcomes", {}).get(self.outcome, {}).get("outcome", "nothing"))
+
     def bracket(self, rows):
         """(fastest that was stopped, slowest that perforated), below each other or None."""
-        told = [(self.speed(row), self.perforated(row)) for row in rows if row.done and self.perforated(row) is not None]
+        told = [(self.speed(row), self.perforated(row)) for row in rows if row.done and
+                self.perforated(row) is not None]
         through = [v for v, p in told if p]
         high = min(through) if through else None
         stopped = [v for v, p in told if not p and (high is None or v < high)]
@@ -95,31 +101,36 @@ class BallisticLimit:
         done = [row for row in rows if row.done]
         low, high = self.bracket(rows)
         unit = self.low.unit
-        shots = [(self.speed(row), row.measure(f"{self.outcome}.residual_speed") or 0.0, self.perforated(row)) for row in done]
+        shots = [(self.speed(row), row.measure(f"{self.outcome}.residual_speed") or 0.0, self.perforated(row))
+                 for row in done]
         answer.tables = [Table("Shots", [f"speed {unit}", "what became of it", "residual m/s", "core-seconds"],
-                               [[number(self.speed(row), 5), str(row.summary.get("outcomes", {}).get(self.outcome, {}).get(
-                                   "outcome", "-")), number(row.measure(f"{self.outcome}.residual_speed"), 4),
+                               [[number(self.speed(row), 5), self.word(row),
+                                 number(row.measure(f"{self.outcome}.residual_speed"), 4),
                                  number(row.cost["core_seconds"], 3)] for row in sorted(done, key=self.speed)])]
         for row in done:
             if self.perforated(row) is None:
-                word = row.summary.get("outcomes", {}).get(self.outcome, {}).get("outcome", "nothing")
-                answer.sentences.append(f"At {number(self.speed(row), 5)} {unit} the run tells nothing ({word}); a later "
+                word = self.word(row)
+                answer.sentences.append(f"At {number(self.speed(row), 5)} {unit} the run tells nothing ({word}); a "
+                                        f"later "
                                         "time.end, or time: {stop_when: {settled: ...}}, would.")
         answer.data = {"bracket": [low, high], "unit": unit, "shots": shots}
         fit = None
         if low is None or high is None:
             missing = "perforated" if high is None else "was stopped"
-            answer.sentences.append(f"No shot between {self.low.text()} and {self.high.text()} {missing}: the limit lies "
+            answer.sentences.append(f"No shot between {self.low.text()} and {self.high.text()} {missing}: the limit "
+                                    f"lies "
                                     f"{'above' if high is None else 'below'} this interval. Widen speed.between.")
         else:
-            answer.sentences.append(f"The limit lies between {low:.5g} and {high:.5g} {unit}: the fastest that was stopped, the "
+            answer.sentences.append(f"The limit lies between {low:.5g} and {high:.5g} {unit}: the fastest that was "
+                                    f"stopped, the "
                                     "slowest that perforated. That holds for this cell only: refine it and look again.")
             fit = recht_ipson([(v, r) for v, r, p in shots if p], low, high)
             answer.sentences += fit_sentences(fit, low, high, unit)
             answer.data["fit"] = fit
         drawn = [(v, r if p else 0.0, p) for v, r, p in shots if p is not None]
         if drawn:
-            answer.pictures = [Picture("limit", "Residual against impact speed; the band is the fit's confidence interval.",
+            answer.pictures = [Picture("limit", "Residual against impact speed; the band is the fit's confidence "
+                                       "interval.",
                                        lambda figure: pictures.limit(figure, drawn, fit, unit))]
         return answer
 
@@ -144,7 +155,8 @@ def recht_ipson(shots, low, high):
     free = len(v) - len(found)
     spread = math.sqrt(covariance[0, 0]) if np.isfinite(covariance[0, 0]) else math.inf
     half = float(stdtrit(free, 0.975)) * spread if free > 0 else math.inf
-    return {"limit": float(found[0]), "a": float(found[1]), "p": float(found[2]) if len(found) > 2 else 2.0, "half": half,
+    return {"limit": float(found[0]), "a": float(found[1]), "p": float(found[2]) if len(found) > 2 else 2.0,
+            "half": half,
             "interval": [max(0.0, float(found[0]) - half), float(found[0]) + half], "shots": len(v),
             "misfit": float(np.sqrt(np.mean((model(v, *found) - r) ** 2)))}
 
@@ -153,10 +165,12 @@ def fit_sentences(fit, low, high, unit):
     if fit is None:
         yield "Fewer than three shots perforated, or no curve fits: no Recht-Ipson fit."
         return
-    yield (f"Recht-Ipson: limit {fit['limit']:.4g} +- {fit['half']:.2g} {unit} (95 %), a = {fit['a']:.3g}, p = {fit['p']:.3g}, "
+    yield (f"Recht-Ipson: limit {fit['limit']:.4g} +- {fit['half']:.2g} {unit} (95 %), a = {fit['a']:.3g}, p = "
+           f"{fit['p']:.3g}, "
            f"{fit['shots']} shots, misfit {fit['misfit']:.2g} {unit}.")
     if fit["interval"][0] > high or fit["interval"][1] < low:
-        yield ("The fit's interval and that of the shots do not meet: residual speeds do not follow the curve near the limit; "
+        yield ("The fit's interval and that of the shots do not meet: residual speeds do not follow the curve near the "
+               "limit; "
                "believe the shots.")
 
 
@@ -169,7 +183,8 @@ class Parameter:
 
 
 class Calibrate:
-    """One or two constants that bring measures nearest to their truth, in units of its uncertainty (1 % where not said)."""
+    """One or two constants that bring measures nearest to their truth, in units of its uncertainty (1 % where not
+    said)."""
 
     def __init__(self, study):
         self.study = study
@@ -221,7 +236,8 @@ class Calibrate:
                                 options={"xatol": 2e-3, "maxiter": self.most})
             else:
                 minimize(look, [0.5, 0.5], method="Nelder-Mead", options={
-                    "initial_simplex": [[0.5, 0.5], [0.8, 0.5], [0.5, 0.8]], "xatol": 2e-3, "fatol": 1e-3, "maxfev": self.most})
+                    "initial_simplex": [[0.5, 0.5], [0.8, 0.5], [0.5, 0.8]], "xatol": 2e-3, "fatol": 1e-3,
+                    "maxfev": self.most})
         except Unknown as unknown:
             return [unknown.one]
         return []
@@ -238,15 +254,18 @@ class Calibrate:
         for one in self.parameters:
             value, half = values[one.path][0], halves[one.path]
             text = f"+- {half:.2g}" if half is not None else "(how well, these members do not tell)"
-            answer.sentences.append(f"{one.path} = {value:.5g} {text} {one.unit}: within +- chi^2 of the truth rises by 1 (one "
+            answer.sentences.append(f"{one.path} = {value:.5g} {text} {one.unit}: within +- chi^2 of the truth rises "
+                                    f"by 1 (one "
                                     "standard deviation, where its uncertainties are).")
             if min(value - one.low, one.high - value) < 0.01 * (one.high - one.low):
                 answer.sentences.append(f"{one.path} ended at the edge of its range: the best lies beyond. Widen it.")
         if len(self.parameters) == 2:
-            answer.sentences.append("With two constants each +- is that of the members seen while the other moved too: where "
+            answer.sentences.append("With two constants each +- is that of the members seen while the other moved too: "
+                                    "where "
                                     "they can make up for each other it is too small.")
         if residuals[0] > 2:
-            answer.sentences.append(f"Even the best misses the truth by {residuals[0]:.2g} of its uncertainties: these constants "
+            answer.sentences.append(f"Even the best misses the truth by {residuals[0]:.2g} of its uncertainties: these "
+                                    f"constants "
                                     "alone do not reproduce it.")
         table = Table("Trials, the best first", [*values, "residual", *self.study.measures],
                       [[*row.member.values.values(), number(r, 3), *(number(scaled(row.unit(n))[0] * row.measure(n), 5)
@@ -256,7 +275,8 @@ class Calibrate:
         answer.data = {"best": dict(best.member.values), "half": halves, "residual": residuals[0]}
         trials = {one.path: (values[one.path], one.unit) for one in self.parameters} | {"residual": (residuals, "")}
         marks = {one.path: (values[one.path][0], halves[one.path]) for one in self.parameters}
-        answer.pictures = [Picture("search", "Residual of every trial.", lambda figure: pictures.search(figure, trials, marks))]
+        answer.pictures = [Picture("search", "Residual of every trial.",
+                                   lambda figure: pictures.search(figure, trials, marks))]
         return answer
 
     def half(self, values, residuals):

@@ -25,7 +25,8 @@ def axes_of(study, key="vary"):
     study.check_paths(key, axes)
     count = int(np.prod([len(values) for values in axes.values()], dtype=float))
     if count > MOST:
-        study.fail(key, f"{count} members; at most {MOST} in one study: take values away, or use design: latin_hypercube")
+        study.fail(key, f"{count} members; at most {MOST} in one study: take values away, or use design: "
+                   f"latin_hypercube")
     return axes
 
 
@@ -43,8 +44,8 @@ def numbers(texts):
 
 
 class Pareto:
-    """Error against cost over all axes. The truth is said, or the scene's reference, or else the dearest member's value,
-    which then cannot be judged itself."""
+    """Error against cost over all axes. The truth is said, or the scene's reference, or else the dearest member's
+    value, which then cannot be judged itself."""
 
     def __init__(self, study):
         self.study = study
@@ -77,11 +78,13 @@ class Pareto:
                             "truth": truth, "of": told[2] if told else f"member {dearest.member.name}, the dearest"}
             for i in front:
                 wins[judged[i].member.name].append(name)
-            answer.sentences.append(f"{name}: error against {scaled_text(truth, done[0].unit(name))} ({clouds[name]['of']}); "
+            answer.sentences.append(f"{name}: error against {scaled_text(truth, done[0].unit(name))} "
+                                    f"({clouds[name]['of']}); "
                                     f"{len(front)} of {len(judged)} settings are worth their time.")
         answer.tables = [Table("All members, the cheapest first",
                                ["member", "core-seconds", *(f"{name}, error %" for name in clouds), "best for"],
-                               [self.line(row, clouds, wins) for row in sorted(done, key=lambda r: r.cost["core_seconds"])])]
+                               [self.line(row, clouds, wins)
+                                for row in sorted(done, key=lambda r: r.cost["core_seconds"])])]
         never = [name for name, won in wins.items() if not won and name != dearest.member.name]
         if never and clouds:
             answer.sentences.append("Dominated for every measure (another member is both cheaper and nearer): " +
@@ -119,7 +122,8 @@ class Ablation:
         self.study, self.effects = study, {}
         for name, changes in study.block("effects", required=True).items():
             if not isinstance(changes, Block) or not changes:
-                study.fail(f"effects/{name}", "what takes the effect away is expected: {materials.copper.heating: none}")
+                study.fail(f"effects/{name}", "what takes the effect away is expected: {materials.copper.heating: "
+                           "none}")
             self.effects[name] = {path: flow(value) for path, value in changes.items()}
             study.check_paths(f"effects/{name}", self.effects[name])
 
@@ -151,12 +155,16 @@ class Ablation:
             saved = 1 - row.cost["core_seconds"] / max(base.cost["core_seconds"], 1e-9)
             keep = most > 100 * self.KEEP or bool(gone)
             table.rows.append([effect, *("-" if v is None else f"{v:+.3g}" for v in found.values()),
-                               number(row.cost["core_seconds"], 3), f"{100 * saved:+.0f} %", "keep" if keep else "could go"])
+                               number(row.cost["core_seconds"], 3), f"{100 * saved:+.0f} %", "keep" if keep
+                               else "could go"])
             answer.sentences.append(
                 f"{effect}: {'keep' if keep else 'could go'}: without it the measures change by at most {most:.2g} %"
-                f"{' and ' + ', '.join(gone) + ' has no value' if gone else ''}, and the run takes {-100 * saved:+.0f} % of time.")
-        answer.sentences.append("`could go`: less than 0.5 % of every measure of this study at this cell; another question of "
-                                "the same scene may need it. Times are of single runs on this machine: differences of some "
+                f"{' and ' + ', '.join(gone) + ' has no value' if gone else ''}, and the run takes {-100 * saved:+.0f} "
+                f"% of time.")
+        answer.sentences.append("`could go`: less than 0.5 % of every measure of this study at this cell; another "
+                                "question of "
+                                "the same scene may need it. Times are of single runs on this machine: differences of "
+                                "some "
                                 "per cent are noise.")
         answer.tables, answer.data = [table], {"changes_percent": changes, "effects": self.effects}
         answer.pictures = [Picture("effects", "What each effect does to each measure.",
@@ -178,7 +186,8 @@ class Sweep:
             self.ranges = {path: study.between(value, f"vary/{path}")
                            for path, value in study.block("vary", required=True).items()}
             study.check_paths("vary", self.ranges)
-            self.members = self.hypercube(study.count("members", 10 * len(self.ranges), MOST), study.count("seed", 1, 2**31))
+            self.members = self.hypercube(study.count("members", 10 * len(self.ranges), MOST),
+                                          study.count("seed", 1, 2**31))
             return
         for key in ("members", "seed"):
             if key in study.keys:
@@ -193,7 +202,8 @@ class Sweep:
     def hypercube(self, count, seed):
         from scipy.stats import qmc  # here and below, not above: scipy.stats takes longer to load than most studies ask
         unit = qmc.LatinHypercube(d=len(self.ranges), seed=seed).random(count)
-        return [Member(f"m{k:04d}", [f"{path}={text}" for path, text in values.items()], values) for k, values in enumerate(
+        return [Member(f"m{k:04d}", [f"{path}={text}" for path, text in values.items()], values) for k,
+                values in enumerate(
             {path: low.text(float(f"{low.number + u * (high.number - low.number):.6g}"))
              for u, (path, (low, high)) in zip(line, self.ranges.items())} for line in unit)]
 
@@ -209,10 +219,12 @@ class Sweep:
         answer.tables = [Table("All members", ["member", *paths, *self.study.measures, "core-seconds"],
                                [[row.member.name, *row.member.values.values(),
                                  *("-" if row.measure(name) is None else scaled_text(row.measure(name), row.unit(name))
-                                   for name in self.study.measures), number(row.cost["core_seconds"], 3)] for row in done])]
+                                   for name in self.study.measures), number(row.cost["core_seconds"], 3)]
+                                for row in done])]
         inputs = {path: (numbers([row.member.values[path] for row in done]), unit_of(done[0].member.values[path]))
                   for path in paths}
-        outputs = {name: ([np.nan if row.measure(name) is None else row.measure(name) for row in done], done[0].unit(name))
+        outputs = {name: ([np.nan if row.measure(name) is None else row.measure(name) for row in done],
+                          done[0].unit(name))
                    for name in self.study.measures}
         answer.tables.append(self.ranks(inputs, outputs))
         if self.design == "grid":
@@ -231,7 +243,8 @@ class Sweep:
     @staticmethod
     def ranks(inputs, outputs):
         from scipy.stats import spearmanr
-        table = Table("Rank correlation of measure and input (Spearman; in brackets the chance to see as much from none)",
+        table = Table("Rank correlation of measure and input (Spearman; in brackets the chance to see as much from "
+                      "none)",
                       ["measure", *inputs], [])
         for name, (values, _) in outputs.items():
             cells, y = [], np.asarray(values, float)
@@ -247,7 +260,8 @@ class Sweep:
 
     def main_effects(self, done, paths):
         """Mean at each value less the mean of all, in % of it."""
-        table = Table("Main effects: mean at a value against the mean of all, in %", ["input", "value", *self.study.measures], [])
+        table = Table("Main effects: mean at a value against the mean of all, in %",
+                      ["input", "value", *self.study.measures], [])
         for path in paths:
             for text in dict.fromkeys(row.member.values[path] for row in done):
                 cells = []

@@ -80,7 +80,9 @@ def flow(value):
         return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in value.items()) + "}"
     if isinstance(value, list):
         return "[" + ", ".join(flow(item) for item in value) + "]"
-    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"' if getattr(value, "quoted", False) else str(value)
+    if not getattr(value, "quoted", False):
+        return str(value)
+    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 def load(path):
@@ -212,7 +214,8 @@ class Study:
                 self.fail(key, f"unknown key of a {self.kind} study ({suggestion(key, known)})")
         for key in ("scene", *REQUIRED[self.kind]):
             if key not in self.keys:
-                raise InputError(f"{self.path}: missing key '{key}' of a {self.kind} study (inputs/studies/ has examples)")
+                raise InputError(f"{self.path}: missing key '{key}' of a {self.kind} study (inputs/studies/ has "
+                                 f"examples)")
 
     def find_scene(self):
         scene = self.keys["scene"]
@@ -234,7 +237,8 @@ class Study:
         """Free names of a block of the scene, and of what `set` adds to it."""
         own = self.base.get(block)
         return [*(own if isinstance(own, dict) else ()),
-                *(path.split(".")[1] for path in self.settings if path.startswith(block + ".") and path.count(".") == 1)]
+                *(path.split(".")[1] for path in self.settings if path.startswith(block + ".") and
+                  path.count(".") == 1)]
 
     def read_measures(self):
         """Names of the measures to judge: those said, or all of the scene."""
@@ -282,7 +286,8 @@ class Study:
         return abs(number.number / of.number)
 
     def fixed(self):
-        """--set texts of every member: `set`, and the truth as the scene's references, so that krater reads its units."""
+        """--set texts of every member: `set`, and the truth as the scene's references, so that krater reads its
+        units."""
         texts = [f"{path}={value}" for path, value in self.settings.items()]
         for name, (value, _, source) in self.truth.items():
             if "." not in name:

@@ -15,11 +15,11 @@ the observed order is limited by the formal one), and beyond 1.5 Fs is 3. Values
 not in that range either: U is at least 1.25 times the spread of the last three. Never is U less than the step between
 the two finest cells, nor than the spread of shifted lattices, which no refinement sees.
 
-The finest four cells are asked. Where they do not waver, but the coarsest of them is out of the range of a law and makes
-the fit wide, the finest three alone are the better witness.
+The finest four cells are asked. Where they do not waver, but the coarsest of them is out of the range of a law and
+makes the fit wide, the finest three alone are the better witness.
 
-U is meant to hold the limit in at least nine of ten cases: tests/scene/cell_error_test.py tries it on made-up sequences,
-`tools/validate calibration` on problems with known answers.
+U is meant to hold the limit in at least nine of ten cases: tests/scene/cell_error_test.py tries it on made-up
+sequences, `tools/validate calibration` on problems with known answers.
 """
 
 import dataclasses

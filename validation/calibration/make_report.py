@@ -88,14 +88,17 @@ def picture(cases, path):
         band, error = (np.maximum([getattr(case, key) for case in chosen], 1e-7) for key in ("band", "error"))
         left.loglog(band, error, "o", ms=3.5, color=colour, alpha=0.75, label=kind)
         ratio = np.sort(error / band)
-        right.step(np.append(ratio, 1e3), np.append(np.arange(1, len(ratio) + 1) / len(ratio), 1), where="post", color=colour)
+        right.step(np.append(ratio, 1e3), np.append(np.arange(1, len(ratio) + 1) / len(ratio), 1), where="post",
+                   color=colour)
     ends = [1e-7, 3e2]
     left.plot(ends, ends, color="#1b2733", lw=1)
-    left.set(xlabel="stated band [%]", ylabel="true error [%]", xlim=ends, ylim=ends, title="Below the line the band holds")
+    left.set(xlabel="stated band [%]", ylabel="true error [%]", xlim=ends, ylim=ends,
+             title="Below the line the band holds")
     left.legend(frameon=False, fontsize=8)
     right.axvline(1, color="#1b2733", lw=1)
     right.axhline(0.9, color="#8794a1", lw=0.8, ls=":")
-    right.set(xscale="log", xlim=(1e-2, 1e1), ylim=(0, 1.01), xlabel="true error / stated band", ylabel="share of the measures",
+    right.set(xscale="log", xlim=(1e-2, 1e1), ylim=(0, 1.01), xlabel="true error / stated band",
+              ylabel="share of the measures",
               title="At 1 it should reach 0.9")
     figure.savefig(path, dpi=130)
 
@@ -104,16 +107,21 @@ def report(study, cases):
     names = list(dict.fromkeys(case.problem for case in cases))
     by_kind = {kind: [case for case in cases if case.kind == kind] for kind in KINDS}
     study.add(
-        f"A band is meant to hold the true answer in nine of ten cases (`tools/krater_study/uncertainty.py` says how it is made). "
-        f"Here the truth is known: {len(names)} problems, {sum(len(p.measures) for p in problems())} measures, and of each every "
-        "run of two, three and four neighbouring cells, as if a user had chosen them. Measures were chosen before their errors were "
+        f"A band is meant to hold the true answer in nine of ten cases (`tools/krater_study/uncertainty.py` says how "
+        f"it is made). "
+        f"Here the truth is known: {len(names)} problems, {sum(len(p.measures) for p in problems())} measures, and of "
+        f"each every "
+        "run of two, three and four neighbouring cells, as if a user had chosen them. Measures were chosen before "
+        "their errors were "
         "looked at; none was left out.",
-        f"**{per_cent(cases):.1f} % of {len(cases)} bands hold the truth** (demanded: 90 %). By what the band was made from: " +
+        f"**{per_cent(cases):.1f} % of {len(cases)} bands hold the truth** (demanded: 90 %). By what the band was made "
+        f"from: " +
         "; ".join(f"{kind} {per_cent(chosen):.0f} %" for kind, chosen in by_kind.items() if chosen) + ".",
         "![stated band against true error](calibration.png)", "## By problem")
     study.add_table(["bands that hold", *KINDS, "median band / error"],
                     [[name, *(share([c for c in by_kind[kind] if c.problem == name]) for kind in KINDS),
-                      f"{np.median([c.band / max(c.error, 1e-9) for c in cases if c.problem == name]):.2g}"] for name in names])
+                      f"{np.median([c.band / max(c.error, 1e-9) for c in cases if c.problem == name]):.2g}"]
+                     for name in names])
     study.add("## By word", "What the study said of the values, and how often that band held.")
     words = sorted({case.how.split(",")[0] for case in cases})
     study.add_table(["word", "bands that hold", "median band, %"],
@@ -122,7 +130,8 @@ def report(study, cases):
     misses = sorted((c for c in cases if not c.inside), key=lambda c: -c.error / max(c.band, 1e-12))
     study.add("## Misses", "All of them, the worst first. `cells` are those along the problem's length.")
     study.add_table(["problem, measure", "cells", "error %", "band %", "error / band", "said"],
-                    [[f"{c.problem}: {c.measure}", " ".join(f"{n:.4g}" for n in c.cells[:4]) + (" ..." if len(c.cells) > 4 else ""),
+                    [[f"{c.problem}: {c.measure}",
+                      " ".join(f"{n:.4g}" for n in c.cells[:4]) + (" ..." if len(c.cells) > 4 else ""),
                       f"{c.error:.2g}", f"{c.band:.2g}", f"{c.error / max(c.band, 1e-12):.2g}", c.how] for c in misses])
 
 
