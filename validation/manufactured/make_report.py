@@ -26,7 +26,6 @@ SCHEMES = {  # name -> method
     "gimp, tflip, usl": "shape: gimp",
     "gimp, flip, musl": "shape: gimp, transfer: flip, update: musl",
     "gimp, apic, usl": "shape: gimp, transfer: apic",
-    "linear, tflip, usl": "shape: linear",
     "linear, flip, musl": "shape: linear, transfer: flip, update: musl",
     "spline, tflip, usl (default)": "shape: quadratic_bspline",
     "spline, flip, musl": "shape: quadratic_bspline, transfer: flip, update: musl",

@@ -94,7 +94,7 @@ def at_strain(point, eps, name="von_mises"):
 
 def flow_curves(study, known):
     names = [name for name, card in known.items()
-             if only(card["strength"])[0] == "johnson_cook" and not name.endswith("_as_printed")]
+             if "strength" in card and only(card["strength"])[0] == "johnson_cook" and not name.endswith("_as_printed")]
     points = {}
     for name in names:
         for rate in RATES:
