@@ -49,7 +49,7 @@ void fill_record(const ElementBody& made_of, const ElementColumns& c, std::size_
   for (std::size_t I = 0; I < corners; ++I) {
     const auto n = static_cast<std::size_t>(mesh.elements[element * corners + I]);
     volume += share[I];
-    for (std::size_t a = 0; a < 3; ++a) centre[a] += share[I] * mesh.nodes[n][a];
+    for (std::size_t a = 0; a < 3; ++a) centre[a] += mesh.nodes[n][a] / mesh.corners();
     if (!(share[I] > 0))
       throw InputError(
           fmt::format("element {} is inverted or has no volume at its corner {}", element, I));
@@ -63,7 +63,7 @@ void fill_record(const ElementBody& made_of, const ElementColumns& c, std::size_
   put(c.id, static_cast<double>(element));
   put(c.mass, made_of.density * volume);
   for (int a = 0; a < mesh.dimension; ++a)
-    put(c.position + kLanes * a, centre[static_cast<std::size_t>(a)] / volume);
+    put(c.position + kLanes * a, centre[static_cast<std::size_t>(a)]);
   if (const Column* F = made_of.layout->find(field::DeformationGradient::info.name))
     for (int k = 0; k < 9; k += 4) put(F->offset + kLanes * k, 1.0);
 }

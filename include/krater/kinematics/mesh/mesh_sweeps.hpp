@@ -190,10 +190,10 @@ KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& 
   for (int i = 0; i < D; ++i) {
     Pack x = 0.0, v = 0.0;
     for (int I = 0; I < N; ++I) {
-      x = fma(share[I], at.x[I][i], x);
+      x = x + at.x[I][i];
       v = fma(share[I], at.v[I][i], v);
     }
-    view.position.set(g, i, x / mass);
+    view.position.set(g, i, (1.0 / N) * x);
     view.velocity.set(g, i, v / mass);
   }
 }

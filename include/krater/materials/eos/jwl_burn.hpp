@@ -115,7 +115,7 @@ struct JwlBurn {
     KRATER_FORCE_INLINE PressureSplit<Real> split(Real rho, Real v) const {
       const PressureSplit<Real> s = law.products.split(rho, v);
       const Real unburnt = (Real(1.0) - F) * law.bulk_modulus;
-      return {fma(F, s.cold, unburnt * fma(rho, Real(1.0 / rho0), Real(-1.0))), F * s.thermal};
+      return {fma(F, s.cold, unburnt * ((rho - rho0) * (1.0 / rho0))), F * s.thermal};
     }
     KRATER_FORCE_INLINE Real bulk_modulus(Real rho, Real v, Real p, Real e) const {
       const Real unburnt = (Real(1.0) - F) * (law.bulk_modulus / rho0) * rho;
