@@ -99,9 +99,9 @@ struct JwlBurn {
 
   /// F of the end of a step.
   template <class Real>
-  KRATER_FORCE_INLINE Real burnt(Real before, Real since_lighting, Real v, Real length) const {
+  KRATER_FORCE_INLINE Real burnt(Real before, Real since_lighting, Real rho, Real length) const {
     const Real by_front = since_lighting * per_width / length;
-    const Real by_collapse = fnma(Real(rho0), v, Real(1.0)) * per_collapse;
+    const Real by_collapse = (rho - rho0) / rho * per_collapse;  // exactly 0 at rho0
     return max(before, min(Real(1.0), max(by_front, by_collapse)));
   }
 

@@ -23,17 +23,19 @@ class BurnStage final : public Stage {
       : law_{law},
         F_{layout.find(field::BurnFraction::info.name)->offset},
         since_{layout.state<field::SinceLighting>(kNeverLit, Law::name)},
-        volumes_{layout.local_input<field::SpecificVolumes>(Law::name)} {}
+        rho_{layout.input<field::Density>(Law::name)} {}
 
   void apply(const BatchData& batch) const override {
     const auto F_p = view(batch, F_);
     const auto since_p = view(batch, since_);
-    const auto v_p = view(batch, volumes_);
+    const auto rho_p = view(batch, rho_);
     const ReadView length = lengths(batch);
     for (int g = 0; g < batch.groups; ++g) {
       const Pack since = since_p(g) + batch.dt;
+      const Pack before = F_p(g);
+      report(batch, FaultKind::not_finite_state, g, !is_finite(before + since));
       since_p.set(g, since);
-      F_p.set(g, law_.burnt(F_p(g), since, v_p(g, 1), length(g)));
+      F_p.set(g, law_.burnt(before, since, rho_p(g), length(g)));
     }
   }
 
@@ -41,7 +43,7 @@ class BurnStage final : public Stage {
   Law law_;
   State<field::BurnFraction> F_;
   State<field::SinceLighting> since_;
-  LocalInput<field::SpecificVolumes> volumes_;
+  Input<field::Density> rho_;
 };
 
 }  // namespace krater::inline KRATER_ISA
