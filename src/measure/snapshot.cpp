@@ -238,6 +238,7 @@ Json audit_json(const Simulation& sim) {
   j["numerical_heat"] = Json::of(a.numerical_heat);
   j["carried_energy"] = Json::of(a.carried);
   j["largest_carried_energy"] = Json::of(a.largest_carried);
+  if (sim.mesh() != nullptr) j["hourglass_energy"] = Json::of(sim.mesh()->hourglass_energy());
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);

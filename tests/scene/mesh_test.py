@@ -66,6 +66,8 @@ def answers(scene):
         check(abs(m["widest"] - 2 * m["foot"]) < 1e-12, "the widest section is that of the largest radius", m)
         start = s["audit"]["initial_energy"]
         check(abs(s["audit"]["energy_residual"]) < 1e-11 * start, "energy closes", s["audit"]["energy_residual"] / start)
+        check(0 < s["audit"]["hourglass_energy"] < 0.1 * s["audit"]["internal_energy"], "the hourglass holds a little",
+              s["audit"]["hourglass_energy"] / s["audit"]["internal_energy"])
         check(s["audit"]["energy_error_fraction"] < 0.01, "and what the law cannot give back is below 1 %",
               s["audit"]["energy_error_fraction"])
 

@@ -105,10 +105,12 @@ KRATER_FORCE_INLINE void find_geometry(const Real (&x)[4][2], ElementGeometry<Re
   for (int point = 0; point < 4; ++point) add_gauss_point<Frame>(x, point, out);
 }
 
-/// Area of a quadrilateral; of a hexahedron its volume.
+/// Area of a quadrilateral, of a hexahedron its volume: a length of it is for viscosity only, and a
+/// thin element by the axis may fold while its volume is whole.
 template <class Real>
 KRATER_FORCE_INLINE Real plane_measure(const Real (&x)[4][2], Real) {
-  return 0.5 * fms(x[2][0] - x[0][0], x[3][1] - x[1][1], (x[3][0] - x[1][0]) * (x[2][1] - x[0][1]));
+  return 0.5 *
+         abs(fms(x[2][0] - x[0][0], x[3][1] - x[1][1], (x[3][0] - x[1][0]) * (x[2][1] - x[0][1])));
 }
 template <class Real>
 KRATER_FORCE_INLINE Real plane_measure(const Real (&)[8][3], Real volume) {
