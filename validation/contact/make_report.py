@@ -63,7 +63,7 @@ def verification(study, lines):
     coarse, fine = [b for b in bars if b[1] == 50], [b for b in bars if b[1] == 100]
     rows = [["equal bars, 50 cells/m: the struck bar takes", f"{min(b[2] for b in coarse):.4f}-{max(b[2] for b in coarse):.4f}", "1"],
             ["the same, 100 cells/m", f"{fine[0][2]:.4f}", "1"],
-            ["lost by contact, share of the energy, 50 and 100 cells/m", f"{-coarse[-1][4]:.4f}, {-fine[0][4]:.4f}", "0"],
+            ["lost by contact, share of the energy, 50 and 100 cells/m", f"{coarse[-1][4]:.4f}, {fine[0][4]:.4f}", "0"],
             ["unequal bars: transmitted impulse", f"{impulse[0]:.4f}", "1"],
             ["striker after the release (m/s)", f"{release[0]:.4f}", f"{release[1]:.4f}"],
             ["block on a base, mu = 0.2: velocity lost, h and h/2", f"{slide[0]:.4f}, {slide[1]:.4f}", "1"],

@@ -247,6 +247,8 @@ def hugoniots(study, known):
     rows, curves = [], {}
     of = {card: name for name, mine in TABLES.items() for card in mine}
     for card in known:
+        if "eos" not in known[card]:
+            continue  # a coupled model has a pressure of its own
         point = shocked(study, f"card_{card}", f"card: {os.path.join(ROOT, 'inputs', 'materials', card)}.yaml")
         if not point:
             continue
