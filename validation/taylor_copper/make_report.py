@@ -38,7 +38,6 @@ SCHEMES = {
     "gimp: tflip, usl": ["method.shape=gimp"],
     "gimp: tflip, musl": ["method.shape=gimp", "method.update=musl"],
     "linear: flip, musl": ["method.shape=linear", "method.transfer=flip", "method.update=musl"],
-    "linear: tflip, musl": ["method.shape=linear", "method.update=musl"],
 }
 FRACTIONS, AVERAGING = (0.97, 0.99, 0.999, 1.0), (True, False)
 DEFAULT = (True, 0.99)
