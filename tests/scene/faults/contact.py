@@ -57,7 +57,8 @@ def rod():
     check(np.max(energy) < 1.001 and np.min(energy) > 0.98, "rod: energy", (np.min(energy), np.max(energy)))
 
 
-@fault("b16", "elastic bars rebound with their speed and keep their energy", until="elastic contact stops a layer of cells: a gap spring, not tried")
+@fault("b16", "elastic bars rebound with their speed and keep their energy",
+       until="elastic contact stops a layer of cells: a gap spring, not tried")
 def bars_rebound():
     # One layer of nodes is inelastic, and its abrupt stop leaves vibration in the bar: 0.85 of the speed at 20 cells.
     done = krater("run", scene("b16"), "-o", "out", "-j", 1, "--quiet", timeout=300)
