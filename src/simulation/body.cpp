@@ -86,6 +86,8 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   }
   if (options_->mesh) {
     declare_elements(material_->density, layout_);
+    if (wants(scene, field::DeformationGradient::info) || strained(scene, index))
+      layout_.state<field::DeformationGradient>(0, "output");
   } else {
     declare_points(
         method,

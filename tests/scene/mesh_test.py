@@ -72,6 +72,15 @@ def answers(scene):
               s["audit"]["energy_error_fraction"])
 
 
+def strains(scene):
+    """A gauge's strain of an element is that of its own deformation: a column that only a gauge asks for."""
+    gauge = "gauges={foot: {body: rod, at: [1 mm, 2 mm], fields: [strain_zz], every: 1 us}}"
+    done = run("gauge", gauge, scene=scene)
+    rows = pathlib.Path("gauge/gauge_foot.csv").read_text(encoding="utf-8").splitlines() if done.returncode == 0 else ["nan"]
+    check(done.returncode == 0 and float(rows[-1].split(",")[-1]) < -0.05, "a gauge records an element's strain",
+          done.text[-300:] + rows[-1])
+
+
 def same_bits(scene):
     for threads in (1, 2, 3):
         done = run(f"rod{threads}", scene=scene, threads=threads)
@@ -100,10 +109,15 @@ def main():
         bar.write_text(BAR, encoding="utf-8")
         rod.write_text(TAYLOR, encoding="utf-8")
         answers(bar)
+        strains(rod)
         same_bits(rod)
         for what, (value, word) in REFUSED.items():
             done = run("refused", value, scene=bar)
             check(done.returncode == 2 and word in done.text, f"refused: {what}", done.text[-300:])
+        done = run("refused", "materials.copper.spall={strength: 1 GPa, action: fail}",
+                   "materials.copper.failure={action: remove}", scene=bar)
+        check(done.returncode == 2 and "keeps its failed elements" in done.text, "refused: elements that failure removes",
+              done.text[-300:])
         two = BAR.replace("measures:", "  other: {material: copper, shape: {cylinder: {radius: 1 mm, height: 1 mm, base: "
                                        "[0, 33 mm]}}}\nmeasures:").replace("max: [12 mm, 35.2 mm]", "max: [12 mm, 40 mm]")
         bar.write_text(two, encoding="utf-8")

@@ -71,6 +71,11 @@ void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
   const std::string only = "a body of kinematics lagrangian_mesh ";
   if (const Node* points = node.find("points"))
     fail(*points, only + "has elements, no points: leave this key out");
+  if (body.material >= 0 &&
+      scene.materials[static_cast<std::size_t>(body.material)].failure == FailureAction::remove)
+    fail(node, only +
+                   "keeps its failed elements: use failure: {action: strength_loss} in its "
+                   "material, or kinematics: mpm");
   if (body.rigid()) fail(*node.find("rigid"), only + "cannot be rigid: leave one of the two out");
   const Box box = intersection(body.solid->extent(scene.frame), {scene.grid.min, scene.grid.max},
                                dimension(scene.frame));
@@ -101,6 +106,7 @@ void check_alone(const Node& place, Reading& reading) {
     fail("knows the current configuration only: leave out method.reference");
   if (scene.body_force || scene.loads.any())
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
+  if (!scene.detonators.empty()) fail("is not lit by detonators yet; use kinematics: mpm");
   for (const MeasureOptions& measure : scene.measures)
     if (measure.by)
       fail("has no measures of what one partner did to a body (" + measure.name +
