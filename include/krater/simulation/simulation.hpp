@@ -84,8 +84,8 @@ class Simulation {
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
   /// All points, in sets of one body; the order is part of the state.
-  int set_count() const { return moving().set_count(); }
-  PointSet set(int s) const { return moving().set(s); }
+  int set_count() const { return mesh_ ? mesh_->set_count() : step_->set_count(); }
+  PointSet set(int s) const { return mesh_ ? mesh_->set(s) : step_->set(s); }
   const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
   /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
@@ -102,9 +102,6 @@ class Simulation {
  private:
   /// What moves the bodies: elements, or material points.
   Kinematics& moving() { return mesh_ ? static_cast<Kinematics&>(*mesh_) : *step_; }
-  const Kinematics& moving() const {
-    return mesh_ ? static_cast<const Kinematics&>(*mesh_) : *step_;
-  }
   void place_meshes();
   Totals totals_of_mesh(int s) const;
   std::vector<int> sets_of(int body) const;
