@@ -34,6 +34,17 @@ struct MeshStep::Elements {
   void for_each_record(const Visit& visit) const {
     visit_records(*this, visit);
   }
+  /// Sum over the corners that it is, in order of elements [N].
+  Triple force_on(std::size_t node) const {
+    const std::size_t each = corner_count(), dim = static_cast<std::size_t>(made_of.mesh.dimension);
+    Triple f{};
+    for (std::size_t k = corners_of.first[node]; k < corners_of.first[node + 1]; ++k) {
+      const std::size_t e = corners_of.places[k] / each, I = corners_of.places[k] % each;
+      const double* corner = forces.data() + (e / kLanes * each + I) * dim * kLanes + e % kLanes;
+      for (std::size_t a = 0; a < dim; ++a) f[a] += corner[a * kLanes];
+    }
+    return f;
+  }
   double* node(std::size_t n) { return nodes.data() + kNode * n; }
   double* change(std::size_t n) { return changes.data() + kChange * n; }
 

@@ -22,9 +22,6 @@ constexpr MeshKernelFactory kFactory{make};
 }  // namespace
 }  // namespace krater::inline KRATER_ISA
 
-#define KRATER_JOIN_(a, b) a##b
-#define KRATER_JOIN(a, b) KRATER_JOIN_(a, b)
-
 namespace krater {
-const MeshKernelFactory* KRATER_JOIN(mesh_kernel_factory_, KRATER_ISA)() { return &kFactory; }
+const MeshKernelFactory* KRATER_CONCAT(mesh_kernel_factory_, KRATER_ISA)() { return &kFactory; }
 }  // namespace krater

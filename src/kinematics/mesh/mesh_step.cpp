@@ -84,8 +84,15 @@ double MeshStep::internal_energy(int s) const {
   return sum;
 }
 
+double MeshStep::hourglass_energy() const {
+  double sum = 0;
+  for (const auto& b : bodies_)
+    for (int i = 0; i < b->elements.count(); ++i) sum += b->hourglass_energy.data()[i];
+  return sum;
+}
+
 void MeshStep::combine(const std::vector<ElementResult>& results, bool energies) {
-  if (energies) audit_.internal = audit_.unfelt = hourglass_energy_ = 0;
+  if (energies) audit_.internal = audit_.unfelt = 0;
   double law_work = 0;
   for (std::size_t c = 0; c < results.size(); ++c) {
     const ElementResult& r = results[c];
@@ -97,7 +104,6 @@ void MeshStep::combine(const std::vector<ElementResult>& results, bool energies)
     }
     if (!energies) continue;
     audit_.internal += r.internal + r.hourglass;
-    hourglass_energy_ += r.hourglass;
     audit_.book_events(r.ledger);
     if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
     audit_.unfelt += r.internal + r.hourglass;
@@ -135,27 +141,13 @@ void MeshStep::over_nodes(const Work& work) {
 }
 
 Triple MeshStep::force_of(int s, std::size_t node) const {
-  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
-  const auto nodes_each = static_cast<std::size_t>(b.made_of.mesh.corners());
-  const auto dim = static_cast<std::size_t>(dim_);
-  Triple f{};
-  for (std::size_t k = b.corners_of.first[node]; k < b.corners_of.first[node + 1]; ++k) {
-    const std::size_t place = b.corners_of.places[k], e = place / nodes_each,
-                      I = place % nodes_each;
-    const double* corner =
-        b.forces.data() + ((e / kLanes * nodes_each + I) * dim) * kLanes + e % kLanes;
-    for (std::size_t a = 0; a < dim; ++a) f[a] += corner[a * kLanes];
-  }
-  return f;
+  return bodies_[static_cast<std::size_t>(s)]->force_on(node);
 }
 
 double MeshStep::force(double dt) {
   over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums&) {
-    const int s = static_cast<int>(
-        std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& p) { return p.get() == &b; }) -
-        bodies_.begin());
     for (std::size_t n = first; n < last; ++n) {
-      const Triple f = force_of(s, n);
+      const Triple f = b.force_on(n);
       for (std::size_t a = 0; a < 3; ++a) b.change(n)[a] = dt / b.node(n)[3] * f[a];
       b.node(n)[7] = 0;
     }

@@ -29,9 +29,6 @@ constexpr KernelFactory kFactory{make};
 }  // namespace
 }  // namespace krater::inline KRATER_ISA
 
-#define KRATER_JOIN_(a, b) a##b
-#define KRATER_JOIN(a, b) KRATER_JOIN_(a, b)
-
 namespace krater {
-const KernelFactory* KRATER_JOIN(kernel_factory_, KRATER_ISA)() { return &kFactory; }
+const KernelFactory* KRATER_CONCAT(kernel_factory_, KRATER_ISA)() { return &kFactory; }
 }  // namespace krater

@@ -86,12 +86,10 @@ class MeshStep final : public Kinematics {
   /// Nodes, and what elements hold beside their columns; find_forces() after it was put back.
   std::vector<double> state(int s) const;
   bool set_state(int s, const std::vector<double>& state);  ///< false: of another length
-  void pad(int s);             ///< after columns were changed from outside
-  std::size_t memory() const;  ///< of nodes and elements [bytes]
-  double hourglass_energy() const {
-    return hourglass_energy_;
-  }                 ///< part of the internal energy [J]
-  struct Elements;  ///< of one body
+  void pad(int s);                  ///< after columns were changed from outside
+  std::size_t memory() const;       ///< of nodes and elements [bytes]
+  double hourglass_energy() const;  ///< part of the internal energy [J]
+  struct Elements;                  ///< of one body
   std::size_t node_count(int s) const;
   Triple position(int s, std::size_t node) const;
   Triple velocity(int s, std::size_t node) const;
@@ -133,7 +131,6 @@ class MeshStep final : public Kinematics {
   std::vector<Chunk> chunks_;
   std::vector<AlignedBuffer> scratch_;
   TimeStepLimit limit_;
-  double hourglass_energy_ = 0;
 };
 
 }  // namespace krater
