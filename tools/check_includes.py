@@ -37,6 +37,7 @@ LIBRARIES = [
     (r"yaml-cpp/", ["scene"]),
     (r"(udunits2?|muParser)\.h", ["scene"]),
     (r"(hdf5|hdf5_hl|H5\w+)\.h", ["output"]),
+    (r"isa-l/.*\.h", ["output"]),
     (r"omp\.h", ["core/parallel"]),
     (r"(CLI|spdlog)/", ["app", "main"]),
     (r"[xp]mmintrin\.h", ["core/simd", "core/parallel"]),  # the flush-to-zero flag of each thread

@@ -61,23 +61,23 @@ void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& 
   const int m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
   const int failed = out.rubble.empty() ? -1 : slot_of(body, field::Failed::info.name);
   const double loose = 0.5 * body.material().density;
-  const auto vector = [&](int i, int slot) {
+  const int dim = sim.geometry().dimension;
+  const auto vector = [dim](const double* point, int slot) {
     Triple values{};
-    for (int a = 0; a < sim.geometry().dimension; ++a)
-      values[static_cast<std::size_t>(a)] = sim.value(at, i, slot + a);
+    for (int a = 0; a < dim; ++a) values[static_cast<std::size_t>(a)] = point[kLanes * (slot + a)];
     return values;
   };
   for (int i = 0; i < p.count(); ++i) {
     const std::size_t n = first + static_cast<std::size_t>(i);
-    out.x[n] = vector(i, x);
-    if (!out.v.empty()) out.v[n] = vector(i, v);
-    out.mass[n] = sim.value(at, i, m);
-    out.density[n] = sim.value(at, i, rho);
+    const double* point = p.points->point(i);
+    out.x[n] = vector(point, x);
+    if (!out.v.empty()) out.v[n] = vector(point, v);
+    out.mass[n] = point[kLanes * m];
+    out.density[n] = point[kLanes * rho];
     if (!out.body.empty()) out.body[n] = p.body;
     if (!out.rubble.empty())
-      out.rubble[n] = failed >= 0 && sim.value(at, i, failed) > 0.5 && out.density[n] < loose;
-    for (const WantedScalar& w : wanted)
-      (*w.values)[n] = w.slot < 0 ? 0.0 : sim.value(at, i, w.slot);
+      out.rubble[n] = failed >= 0 && point[kLanes * failed] > 0.5 && out.density[n] < loose;
+    for (const WantedScalar& w : wanted) (*w.values)[n] = w.slot < 0 ? 0.0 : point[kLanes * w.slot];
   }
 }
 

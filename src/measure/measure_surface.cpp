@@ -38,6 +38,23 @@ double section(double volume, double r, double share, double a) {
 
 double volume(const BodyPoints& body, std::size_t p) { return body.mass[p] / body.density[p]; }
 
+/// filled_volume() of many points.
+class Filling {
+ public:
+  explicit Filling(const MeasureContext& context)
+      : revolved_{context.frame == Frame::axisymmetric},
+        a_{node_spacing(context)},
+        cell_{a_ * a_ * (context.frame == Frame::cartesian_3d ? a_ : 1)} {}
+  double operator()(const BodyPoints& body, std::size_t p) const {
+    const double round = revolved_ ? 2 * std::numbers::pi * std::max(body.x[p][0], 0.2 * a_) : 1.0;
+    return std::min(volume(body, p), cell_ * round);
+  }
+
+ private:
+  bool revolved_;
+  double a_, cell_;
+};
+
 /// Over the points, and up to symmetry planes where `to_planes`.
 MeasuringAxis body_axis(const BodyPoints& body, const MeasureContext& context, int d,
                         bool to_planes = false) {
@@ -233,12 +250,7 @@ double node_spacing(const MeasureContext& context) {
 }
 
 double filled_volume(const BodyPoints& body, const MeasureContext& context, std::size_t p) {
-  const double a = node_spacing(context);
-  double cell = a * a;
-  if (context.frame == Frame::axisymmetric)
-    cell *= 2 * std::numbers::pi * std::max(body.x[p][0], 0.2 * a);
-  if (context.frame == Frame::cartesian_3d) cell *= a;
-  return std::min(volume(body, p), cell);
+  return Filling{context}(body, p);
 }
 
 bool is_closed(const MeasureContext& context, int axis, int side) {
@@ -262,12 +274,12 @@ VolumeFraction volume_fraction(const BodyPoints& body, const MeasureContext& con
   std::array<MeasuringAxis, 3> axes;
   for (int d = 0; d < dimension(context.frame); ++d)
     axes[index(d)] = body_axis(body, context, d, to_planes);
+  const Filling filling{context};
+  const double a = node_spacing(context);
   std::vector<double> sections(body.count());
   for (std::size_t p = 0; p < body.count(); ++p) {
-    const double V = filled_volume(body, context, p);
-    sections[p] = context.frame == Frame::axisymmetric
-                      ? section(V, body.x[p][0], 1, node_spacing(context))
-                      : V;
+    const double V = filling(body, p);
+    sections[p] = context.frame == Frame::axisymmetric ? section(V, body.x[p][0], 1, a) : V;
   }
   return {dimension(context.frame), axes, body.x, sections};
 }
@@ -293,8 +305,9 @@ struct Reach {
 
 Reach reach(const BodyPoints& body, const MeasureContext& context, int axis) {
   Reach found{.all = range(body, axis)};
+  const Filling filling{context};
   for (std::size_t p = 0; p < body.count(); ++p) {
-    if (filled_volume(body, context, p) == volume(body, p)) continue;
+    if (filling(body, p) == volume(body, p)) continue;
     const double x = body.x[p][index(axis)];
     found.sparse = {std::min(found.sparse[0], x), std::max(found.sparse[1], x)};
   }

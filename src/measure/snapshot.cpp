@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/measure/snapshot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numeric>
 #include <set>
 
@@ -13,7 +15,12 @@ namespace krater {
 
 namespace {
 
-using Points = std::vector<std::pair<int, int>>;
+/// Where a point is, and its components by slot.
+struct Place {
+  const double* point;
+  double operator()(int slot) const { return point[kLanes * slot]; }
+};
+using PointList = std::shared_ptr<const std::vector<Place>>;
 
 const std::vector<std::string>& tensor_names(Frame f) {
   static const std::vector<std::string> cartesian{"xx", "yy", "zz", "yz", "xz", "xy"};
@@ -42,8 +49,16 @@ bool asked_for(const Scene& scene, const char* name) {
   return false;
 }
 
+/// Rows of `width` numbers, each made by `put(point, row)`.
+template <class T, class Put>
+Rows<T> rows_of(const PointList& points, int width, Put put) {
+  return [points, width, put](std::size_t first, std::size_t count, T* out) {
+    for (std::size_t i = first; i < first + count; ++i, out += width) put((*points)[i], out);
+  };
+}
+
 /// Values of a column, vectors along grid axes widened to space.
-FieldArray column_array(const Simulation& sim, const Column& c, const Points& points) {
+FieldArray column_array(const Simulation& sim, const Column& c, const PointList& points) {
   const Frame frame = sim.scene().frame;
   FieldArray out;
   out.name = c.field->name;
@@ -53,38 +68,75 @@ FieldArray column_array(const Simulation& sim, const Column& c, const Points& po
   out.components = is_vector ? 3 : c.components;
   if (is_vector) out.component_names = vector_names(frame);
   if (c.components == 6) out.component_names = tensor_names(frame);
-  out.values.assign(points.size() * static_cast<std::size_t>(out.components), 0.0);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (int k = 0; k < c.components; ++k) {
-      const auto at = static_cast<std::size_t>(is_vector ? tensor_axis(frame, k) : k);
-      out.values[i * static_cast<std::size_t>(out.components) + at] =
-          sim.value(points[i].first, points[i].second, c.offset / kLanes + k);
-    }
+  const int slot = c.offset / kLanes, components = c.components;
+  out.values = rows_of<double>(points, out.components, [=](Place at, double* row) {
+    if (is_vector) std::fill_n(row, 3, 0.0);
+    for (int k = 0; k < components; ++k) row[is_vector ? tensor_axis(frame, k) : k] = at(slot + k);
+  });
   return out;
 }
 
-void add_stress(const Simulation& sim, const Body& body, const Points& points, BodyFrame& out) {
+void add_stress(const Simulation& sim, const Body& body, const PointList& points, BodyFrame& out) {
   const int s = body.slot(field::DeviatoricStress::info), p = body.slot(field::Pressure::info);
   if (s < 0) return;
-  FieldArray stress{"stress",
-                    "Pa",
-                    "Cauchy stress, tension positive, without viscosity",
-                    6,
-                    tensor_names(sim.scene().frame),
-                    {}};
-  FieldArray mises{"von_mises", "Pa", "von Mises stress sqrt(3/2 s:s)", 1, {}, {}};
-  for (const auto& [patch, i] : points) {
-    const double pressure = p < 0 ? 0 : sim.value(patch, i, p);
+  const auto stress = [=](Place at, double* row) {
+    const double pressure = p < 0 ? 0 : at(p);
+    for (int k = 0; k < 6; ++k) row[k] = at(s + k) - (k < 3 ? pressure : 0);
+  };
+  const auto mises = [=](Place at, double* row) {
     double square = 0;
     for (int k = 0; k < 6; ++k) {
-      const double x = sim.value(patch, i, s + k);
+      const double x = at(s + k);
       square += (k < 3 ? 1 : 2) * x * x;
-      stress.values.push_back(k < 3 ? x - pressure : x);
     }
-    mises.values.push_back(std::sqrt(1.5 * square));
-  }
-  out.fields.push_back(std::move(stress));
-  out.fields.push_back(std::move(mises));
+    *row = std::sqrt(1.5 * square);
+  };
+  out.fields.push_back({"stress", "Pa", "Cauchy stress, tension positive, without viscosity", 6,
+                        tensor_names(sim.scene().frame), rows_of<double>(points, 6, stress)});
+  out.fields.push_back({"von_mises",
+                        "Pa",
+                        "von Mises stress sqrt(3/2 s:s)",
+                        1,
+                        {},
+                        rows_of<double>(points, 1, mises)});
+}
+
+PointList places_by_id(const Simulation& sim, int body) {
+  auto places = std::make_shared<std::vector<Place>>();
+  for (const auto& [set, i] : sim.points_by_id(body))
+    places->push_back({sim.set(set).points->point(i)});
+  return places;
+}
+
+BodyFrame body_frame(const Simulation& sim, int b) {
+  const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
+  const Frame frame = sim.scene().frame;
+  const PointList points = places_by_id(sim, b);
+  BodyFrame out;
+  out.body = body.name();
+  out.points = points->size();
+  const int id = body.slot(field::Id::info), x = body.slot(field::Position::info);
+  out.ids = rows_of<std::int64_t>(
+      points, 1, [id](Place at, std::int64_t* row) { *row = static_cast<std::int64_t>(at(id)); });
+  out.coordinates = rows_of<double>(points, 3, [x, frame](Place at, double* row) {
+    std::fill_n(row, 3, 0.0);
+    for (int a = 0; a < dimension(frame); ++a) row[tensor_axis(frame, a)] = at(x + a);
+  });
+  for (const Column& c : body.layout().columns())
+    if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
+      out.fields.push_back(column_array(sim, c, points));
+  add_stress(sim, body, points, out);
+  if (!asked_for(sim.scene(), kFragmentField)) return out;
+  const auto pieces = std::make_shared<const std::vector<double>>(fragment_numbers(sim, b));
+  out.fields.push_back({kFragmentField,
+                        "1",
+                        "connected piece of its body, 0 the heaviest",
+                        1,
+                        {},
+                        [pieces](std::size_t first, std::size_t count, double* to) {
+                          std::copy_n(pieces->data() + first, count, to);
+                        }});
+  return out;
 }
 
 void add(std::vector<Quantity>& row, std::string name, std::string unit, double value) {
@@ -102,13 +154,10 @@ double deviatoric_energy(const Simulation& sim, int set) {
   if (s < 0 || G <= 0) return 0;
   double sum = 0;
   for (int i = 0; i < points.count(); ++i) {
+    const Place at{points.points->point(i)};
     double square = 0;
-    for (int k = 0; k < 6; ++k) {
-      const double x = sim.value(set, i, s + k);
-      square += (k < 3 ? 1 : 2) * x * x;
-    }
-    sum += sim.value(set, i, m) * square /
-           (4 * G * sim.value(set, i, rho) * (phi < 0 ? 1 : 1 - sim.value(set, i, phi)));
+    for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * at(s + k) * at(s + k);
+    sum += at(m) * square / (4 * G * at(rho) * (phi < 0 ? 1 : 1 - at(phi)));
   }
   return sum;
 }
@@ -127,33 +176,8 @@ OutputFrame make_frame(const Simulation& sim, int number) {
   out.number = number;
   out.time = sim.time();
   out.step = sim.steps();
-  const Frame frame = sim.scene().frame;
-  for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
-    const Body& body = *sim.bodies()[b];
-    const Points points = sim.points_by_id(static_cast<int>(b));
-    BodyFrame bf;
-    bf.body = body.name();
-    const int id = body.slot(field::Id::info), x = body.slot(field::Position::info);
-    for (const auto& [patch, i] : points) {
-      bf.ids.push_back(static_cast<std::int64_t>(sim.value(patch, i, id)));
-      std::array<double, 3> space{};
-      for (int a = 0; a < dimension(frame); ++a)
-        space[static_cast<std::size_t>(tensor_axis(frame, a))] = sim.value(patch, i, x + a);
-      bf.coordinates.insert(bf.coordinates.end(), space.begin(), space.end());
-    }
-    for (const Column& c : body.layout().columns())
-      if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
-        bf.fields.push_back(column_array(sim, c, points));
-    add_stress(sim, body, points, bf);
-    if (asked_for(sim.scene(), kFragmentField))
-      bf.fields.push_back({kFragmentField,
-                           "1",
-                           "connected piece of its body, 0 the heaviest",
-                           1,
-                           {},
-                           fragment_numbers(sim, static_cast<int>(b))});
-    out.bodies.push_back(std::move(bf));
-  }
+  for (std::size_t b = 0; b < sim.bodies().size(); ++b)
+    out.bodies.push_back(body_frame(sim, static_cast<int>(b)));
   return out;
 }
 

@@ -77,10 +77,8 @@ double bspline(double u) {
   return u < 1.5 ? 0.5 * (1.5 - u) * (1.5 - u) : 0.0;
 }
 
-NodeWeights node_weights(const MeasuringAxis& axis, double x) {
-  const double u = (x - axis.origin) / axis.spacing;
+NodeWeights node_weights_at_end(const MeasuringAxis& axis, double u, int nearest) {
   const int last = axis.count - 1;
-  const int nearest = static_cast<int>(std::clamp(u, 0.0, static_cast<double>(last)) + 0.5);
   const double f = u - nearest;
   NodeWeights result{};
   if (std::abs(f) <= 0.5) {
@@ -89,7 +87,6 @@ NodeWeights node_weights(const MeasuringAxis& axis, double x) {
     for (int n = 0; n < 3; ++n) result.weight[index(n)] = bspline(u - (nearest - 1 + n));
   }
   result.index = {nearest - 1, nearest, nearest + 1};
-  if (nearest > 1 && nearest < last - 1) return result;
   for (int n = 0; n < 3; ++n) {
     int& i = result.index[index(n)];
     // The image of a point beyond the plane: what it gives to a node is what the point gives to the

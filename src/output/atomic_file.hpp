@@ -3,6 +3,7 @@
 /// \file output/atomic_file.hpp
 /// Files that appear complete or not at all. Assumes POSIX: rename within a folder is atomic.
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,28 @@ inline constexpr const char* kPartSuffix = ".part";  ///< of a file still being 
 
 /// "text of errno", without the C library's static buffer.
 std::string reason(int error_number);
+
+/// `path`.part while it is written, in any order; `path` once it is committed. Thrown away unless
+/// committed. What fails while writing is told by commit(), as an OutputError.
+class PartFile {
+ public:
+  explicit PartFile(std::string path);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  void write(std::uint64_t at, const void* data, std::size_t size) noexcept;
+  void read(std::uint64_t at, void* data, std::size_t size) const noexcept;  ///< zeros past the end
+  std::uint64_t size() const { return size_; }  ///< end of the last byte written
+  void commit();                                ///< to disk, then renamed
+
+ private:
+  std::string path_, part_;
+  int descriptor_ = -1;
+  int error_ = 0;  ///< errno of the first write that failed
+  std::uint64_t size_ = 0;
+};
 
 /// Writes `path`.part, syncs it to disk and renames it to `path`. On failure removes the part file,
 /// leaves an older `path` as it was, and throws OutputError.

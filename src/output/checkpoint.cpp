@@ -2,6 +2,7 @@
 #include "output/checkpoint.hpp"
 
 #include <functional>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <sstream>
@@ -32,12 +33,17 @@ void write_values(const Node& file, const CheckpointBlob& blob, const std::vecto
 }
 
 void write_blob(const Node& file, const CheckpointBlob& blob) {
-  const int filled = !blob.doubles.empty() + !blob.integers.empty() + !blob.text.empty();
+  const int filled =
+      !blob.doubles.empty() + !blob.integers.empty() + !blob.text.empty() + bool{blob.matrix};
   if (blob.name.empty() || blob.name.find('\n') != std::string::npos || filled > 1) {
     throw std::invalid_argument("checkpoint: '" + blob.name +
                                 "' needs a name of one line and one kind of data");
   }
-  if (!blob.text.empty()) {
+  if (blob.matrix) {
+    if (blob.shape.size() != 2)
+      throw std::invalid_argument("checkpoint: '" + blob.name + "' is no matrix");
+    file.make_matrix("state/" + blob.name, blob.shape, blob.matrix);
+  } else if (!blob.text.empty()) {
     write_values(file, blob, std::vector<unsigned char>(blob.text.begin(), blob.text.end()));
   } else if (!blob.integers.empty()) {
     write_values(file, blob, blob.integers);
@@ -47,6 +53,7 @@ void write_blob(const Node& file, const CheckpointBlob& blob) {
 }
 
 const char* kind_of(const CheckpointBlob& blob) {
+  if (blob.matrix) return "matrix";
   return !blob.text.empty() ? "text" : !blob.integers.empty() ? "integers" : "doubles";
 }
 
@@ -55,7 +62,12 @@ CheckpointBlob read_blob(const Node& file, const std::string& name, const std::s
   CheckpointBlob blob;
   blob.name = name;
   blob.shape = dataset.shape();
-  if (kind == "doubles") {
+  if (kind == "matrix") {
+    blob.matrix = [rows = std::make_shared<const Node>(file.open_dataset("state/" + name))](
+                      std::size_t first, std::size_t number, double* out) {
+      rows->read_rows(first, number, out);
+    };
+  } else if (kind == "doubles") {
     blob.doubles = dataset.read<double>();
   } else if (kind == "integers") {
     blob.integers = dataset.read<std::int64_t>();
@@ -73,9 +85,7 @@ namespace output {
 
 void save_checkpoint(const std::string& path, const Checkpoint& checkpoint,
                      const TextAttributes& attributes) {
-  std::size_t numbers = 0;
-  for (const auto& blob : checkpoint.blobs) numbers += blob.doubles.size() + blob.integers.size();
-  MemoryFile file(path, MemoryFile::Kind::sealed, 8 * numbers);
+  StreamedFile file(path, StreamedFile::Kind::sealed);
   file.set(attributes);
   std::string order;  // HDF5 lists names alphabetically; the program's order is kept here
   for (const auto& blob : checkpoint.blobs) {
@@ -85,7 +95,8 @@ void save_checkpoint(const std::string& path, const Checkpoint& checkpoint,
   // A dataset: an attribute holds 64 KiB, which is 4087 names.
   const std::vector<unsigned char> bytes(order.begin(), order.end());
   file.make_dataset("order", {bytes.size()}, bytes.data());
-  file.save();
+  file.close();
+  file.commit();
 }
 
 }  // namespace output

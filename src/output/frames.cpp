@@ -42,54 +42,43 @@ bool is_usable_name(const std::string& name) {
   return !name.empty() && name != "." && name.find_first_of("/:\n") == std::string::npos;
 }
 
+template <class T>
+Node write_array(const Node& group, const BodyFrame& body, const std::string& name, int components,
+                 const Rows<T>& values) {
+  const Shape shape = components == 1 ? Shape{body.points}
+                                      : Shape{body.points, static_cast<std::uint64_t>(components)};
+  return group.make_packed<T>(name, shape, values);
+}
+
 void write_field(const Node& group, const BodyFrame& body, const FieldArray& field) {
-  const std::size_t points = body.ids.size();
   require(is_usable_name(field.name), body, "unusable name of a field '" + field.name + "'");
-  require(field.components > 0 &&
-              field.values.size() == points * static_cast<std::size_t>(field.components),
-          body, "wrong number of values of '" + field.name + "'");
+  require(field.components > 0 && field.values, body, "no values of '" + field.name + "'");
   require(field.component_names.empty() ||
               field.component_names.size() == static_cast<std::size_t>(field.components),
           body, "wrong number of component names of '" + field.name + "'");
-  const Shape shape = field.components == 1
-                          ? Shape{points}
-                          : Shape{points, static_cast<std::uint64_t>(field.components)};
-  const Node dataset =
-      group.make_dataset(field.name, shape, field.values.data(), Node::Storage::compressed);
+  const Node dataset = write_array(group, body, field.name, field.components, field.values);
   dataset.set("unit", field.unit);
   dataset.set("meaning", field.meaning);
   if (!field.component_names.empty()) dataset.set("component_names", field.component_names);
 }
 
 void write_body(const Node& file, const BodyFrame& body) {
-  const std::size_t points = body.ids.size();
   require(is_usable_name(body.body), body, "unusable name");
-  require(body.coordinates.size() == 3 * points, body, "three coordinates per point expected");
+  require(body.ids && body.coordinates, body, "no ids or coordinates");
   const Node group = file.make_group(body.body);
-  const Node ids = group.make_dataset("id", {points}, body.ids.data(), Node::Storage::compressed);
+  const Node ids = write_array(group, body, "id", 1, body.ids);
   ids.set("unit", std::string("1"));
   ids.set("meaning", std::string("number of the point in its body, for ever"));
-  const Node coordinates = group.make_dataset("coordinates", {points, 3}, body.coordinates.data(),
-                                              Node::Storage::compressed);
+  const Node coordinates = write_array(group, body, "coordinates", 3, body.coordinates);
   coordinates.set("unit", std::string("m"));
   coordinates.set("meaning", std::string("position (x, y, z); axisymmetric (r, 0, z)"));
   coordinates.set("component_names", std::vector<std::string>{"x", "y", "z"});
-  std::vector<std::int64_t> cells(points);
-  std::iota(cells.begin(), cells.end(), 0);
-  const Node topology =
-      group.make_dataset("cells", {points}, cells.data(), Node::Storage::compressed);
+  const Rows<std::int64_t> count = [](std::size_t first, std::size_t number, std::int64_t* out) {
+    std::iota(out, out + number, static_cast<std::int64_t>(first));
+  };
+  const Node topology = write_array(group, body, "cells", 1, count);
   topology.set("meaning", std::string("0, 1, 2, ...: one vertex per point, for frames.xmf"));
   for (const auto& field : body.fields) write_field(group, body, field);
-}
-
-/// Before it is packed.
-std::size_t bytes_of(const OutputFrame& frame) {
-  std::size_t numbers = 0;
-  for (const BodyFrame& body : frame.bodies) {
-    numbers += 2 * body.ids.size() + body.coordinates.size();
-    for (const FieldArray& field : body.fields) numbers += field.values.size();
-  }
-  return 8 * numbers;
 }
 
 void remove_file(const fs::path& path) {
@@ -141,18 +130,23 @@ void FrameSeries::truncate_after(double time, const TextAttributes& attributes) 
   for (const ListedFrame& frame : late) remove_file(folder_ + "/" + frame_file(frame.number));
 }
 
-void FrameSeries::write(const OutputFrame& frame, const TextAttributes& attributes) {
+FrameSeries::Written FrameSeries::write(const OutputFrame& frame,
+                                        const TextAttributes& attributes) const {
   if (frame.number < 0) throw std::invalid_argument("frame: negative number");
   std::error_code error;
   fs::create_directories(folder_ + "/frames", error);
   if (error) throw OutputError(folder_ + "/frames: cannot be created: " + error.message());
-  MemoryFile file(folder_ + "/" + frame_file(frame.number), MemoryFile::Kind::plain,
-                  bytes_of(frame));
+  StreamedFile file(folder_ + "/" + frame_file(frame.number));
   file.set(attributes);
   file.set("time", frame.time);
   file.set("step", frame.step);
   for (const auto& body : frame.bodies) write_body(file, body);
-  file.save();
+  file.close();
+  return {std::move(file), frame.number, frame.time, frame_grid(frame, frame_file(frame.number))};
+}
+
+void FrameSeries::commit(Written frame, const TextAttributes& attributes) {
+  frame.file.commit();
   // A run that is continued elsewhere may find frames of another one there.
   const auto clash = std::find_if(frames_.begin(), frames_.end(), [&frame](const ListedFrame& f) {
     return f.number >= frame.number || f.time >= frame.time;
@@ -161,12 +155,11 @@ void FrameSeries::write(const OutputFrame& frame, const TextAttributes& attribut
     frames_.erase(clash, frames_.end());
     links_.reset();
   }
-  const std::string grid = frame_grid(frame, frame_file(frame.number));
   if (frames_.empty()) replace_file(list(), std::string(kXdmfHead).append(kXdmfTail));
   const std::size_t begin = end_of_list();
-  frames_.push_back({frame.number, frame.time, begin, begin + grid.size()});
+  frames_.push_back({frame.number, frame.time, begin, begin + frame.grid.size()});
   save_links(attributes);
-  replace_tail(list(), begin, grid + std::string(kXdmfTail));
+  replace_tail(list(), begin, frame.grid + std::string(kXdmfTail));
 }
 
 void FrameSeries::save_links(const TextAttributes& attributes) {

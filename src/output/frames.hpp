@@ -21,7 +21,15 @@ class FrameSeries {
   void remove_all();  ///< files of an earlier run, and half-written ones
   void load();        ///< the frames of an earlier run that is continued
   void truncate_after(double time, const TextAttributes& attributes);
-  void write(const OutputFrame& frame, const TextAttributes& attributes);
+  /// A frame that is written, but for waiting until it is on disk and in the lists.
+  struct Written {
+    StreamedFile file;
+    int number;
+    double time;
+    std::string grid;  ///< its part of frames.xmf
+  };
+  Written write(const OutputFrame& frame, const TextAttributes& attributes) const;
+  void commit(Written frame, const TextAttributes& attributes);
 
  private:
   std::string list() const { return folder_ + "/frames.xmf"; }

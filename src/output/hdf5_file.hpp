@@ -2,17 +2,19 @@
 #pragma once
 /// \file output/hdf5_file.hpp
 /// The little of HDF5 that the program uses, with owners for its identifiers and exceptions for its
-/// errors. Files are built in memory and written by `replace_file`: HDF5 1.10 crashes, then or at
-/// exit, when a write to disk fails (tried with a limited file size), and a full disk must not end
-/// a run without its checkpoint. Not thread-safe, as the library.
+/// errors. Small files that are written again and again are built in memory, large ones go straight
+/// to disk (output/part_driver.hpp): a full disk must not end a run without its checkpoint, and a
+/// file must not need the memory of another simulation. Not thread-safe, as the library.
 #include <hdf5.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "krater/output/results.hpp"
+#include "output/atomic_file.hpp"
 
 namespace krater::output {
 
@@ -41,11 +43,14 @@ class Node {
   Node(Handle handle, std::string file, Mode mode);
 
   Node make_group(const std::string& name) const;
-  enum class Storage { plain, compressed };
   /// `values` may be null when the shape holds no element. Types: double, int64, unsigned char.
   template <class T>
-  Node make_dataset(const std::string& name, const Shape& shape, const T* values,
-                    Storage storage = Storage::plain) const;
+  Node make_dataset(const std::string& name, const Shape& shape, const T* values) const;
+  /// Two sizes; written row by row, so that nothing holds the whole.
+  Node make_matrix(const std::string& name, const Shape& shape, const Rows<double>& rows) const;
+  /// Packed (output/packing.hpp) by all threads, piece by piece. Types: double, int64.
+  template <class T>
+  Node make_packed(const std::string& name, const Shape& shape, const Rows<T>& rows) const;
   void link_external(const std::string& name, const std::string& file,
                      const std::string& path) const;
   void set(const std::string& attribute, const std::string& text) const;
@@ -64,6 +69,8 @@ class Node {
   /// Whole dataset; refuses one stored as another type.
   template <class T>
   std::vector<T> read() const;
+  /// Of a dataset of two sizes and doubles.
+  void read_rows(std::size_t first, std::size_t count, double* out) const;
 
   const std::string& file() const { return file_; }
 
@@ -74,6 +81,8 @@ class Node {
   Handle handle_;
 
  private:
+  Node make_space_for(const std::string& name, const Shape& shape, std::int64_t type,
+                      std::int64_t creation) const;
   Handle write_attribute(const std::string& name, hid_t type, hid_t space, const void* data) const;
   void read_attribute(const std::string& name, hid_t type, void* data) const;
   std::string file_;
@@ -83,12 +92,21 @@ class Node {
 /// A file under construction in memory. Objects made in it may outlive it but no longer matter.
 class MemoryFile : public Node {
  public:
+  explicit MemoryFile(const std::string& path);
+  void save();  ///< to its path, all or nothing; again after more was added
+};
+
+/// A file that is written as it grows, and has its name when it is committed. What fails meanwhile
+/// is told by commit().
+class StreamedFile : public Node {
+ public:
   enum class Kind { plain, sealed };  ///< sealed: output/seal.hpp
-  /// `bytes`: about what it will hold.
-  explicit MemoryFile(const std::string& path, Kind kind = Kind::plain, std::size_t bytes = 0);
-  void save();  ///< to its path, all or nothing
+  explicit StreamedFile(const std::string& path, Kind kind = Kind::plain);
+  void close();   ///< nothing is added any more; the rest of the work needs no HDF5
+  void commit();  ///< once, closed
 
  private:
+  std::unique_ptr<PartFile> part_;
   Kind kind_;
 };
 

@@ -104,12 +104,14 @@ void ResultsFolder::wait() {
   if (impl_->frame.valid()) impl_->frame.get();
 }
 
-void ResultsFolder::write_frame(OutputFrame frame) {
+void ResultsFolder::write_frame(const OutputFrame& frame) {
   wait();
   impl_->prepare();
-  impl_->frame = std::async(std::launch::async, [impl = impl_.get(), frame = std::move(frame)] {
-    impl->frames.write(frame, impl->attributes);
-  });
+  impl_->frame = std::async(
+      std::launch::async,
+      [impl = impl_.get(), written = impl_->frames.write(frame, impl_->attributes)]() mutable {
+        impl->frames.commit(std::move(written), impl->attributes);
+      });
 }
 
 void ResultsFolder::write_history(const std::vector<Quantity>& row) {

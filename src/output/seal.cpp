@@ -22,8 +22,9 @@ namespace krater::output {
 namespace {
 
 constexpr std::string_view kName = "krater checkpoint, format ";
-constexpr std::string_view kStart = "krater checkpoint, format 2, hash ";
+constexpr std::string_view kStart = "krater checkpoint, format 3, hash ";
 constexpr std::size_t kDigits = 16;
+constexpr std::size_t kPiece = 1 << 16;  ///< bytes read at once; a multiple of 8
 constexpr std::string_view kOldFormat = "\x89HDF\r\n\x1a\n";  ///< format 1 was not sealed
 
 /// FNV-1a over 64-bit words, each turned before it is mixed. Every step is a bijection of the word,
@@ -94,12 +95,12 @@ std::string take_digits(const Reader& file, std::vector<char>& start, std::size_
   if (text.starts_with(kOldFormat))
     file.fail(
         "not a checkpoint of krater, or one of format 1, which this program does not read (it "
-        "reads format 2): use the version of krater that wrote it");
+        "reads format 3): use the version of krater that wrote it");
   if (!text.starts_with(kName))
     file.fail("not a checkpoint of krater, or damaged at its start, or cut short");
   if (!text.starts_with(kStart) || size < kSealBytes)
     file.fail(
-        "a checkpoint of another format than 2, which this program reads, or damaged, or cut "
+        "a checkpoint of another format than 3, which this program reads, or damaged, or cut "
         "short; use the version of krater that wrote it, or an older checkpoint");
   char* digits = start.data() + kStart.size();
   const std::string found{digits, kDigits};
@@ -109,21 +110,26 @@ std::string take_digits(const Reader& file, std::vector<char>& start, std::size_
 
 }  // namespace
 
-void seal(char* image, std::size_t size) {
-  std::fill_n(image, kSealBytes, '\0');
-  std::copy(kStart.begin(), kStart.end(), image);
-  char* digits = image + kStart.size();
-  std::fill_n(digits, kDigits, '0');
-  digits[kDigits] = '\n';
+void seal(PartFile& file) {
+  std::string start(kSealBytes, '\0');
+  start.replace(0, kStart.size(), kStart);
+  start.replace(kStart.size(), kDigits, kDigits, '0');
+  start[kStart.size() + kDigits] = '\n';
+  file.write(0, start.data(), start.size());
+  std::vector<char> buffer(kPiece);
   Hash hash;
-  hash.add({image, size});
-  const std::string text = hash.digits();
-  std::copy(text.begin(), text.end(), digits);
+  for (std::uint64_t at = 0; at < file.size(); at += buffer.size()) {
+    const std::size_t count = std::min<std::uint64_t>(buffer.size(), file.size() - at);
+    file.read(at, buffer.data(), count);
+    hash.add({buffer.data(), count});
+  }
+  const std::string digits = hash.digits();
+  file.write(kStart.size(), digits.data(), digits.size());
 }
 
 void require_sealed(const std::string& path) {
   Reader file{path};
-  std::vector<char> buffer(1 << 20);
+  std::vector<char> buffer(kPiece);
   std::string_view bytes = file.read(buffer);
   const std::string expected = take_digits(file, buffer, bytes.size());
   Hash hash;

@@ -79,7 +79,7 @@ std::string field_attributes(const FieldArray& field, const std::string& points,
 }
 
 std::string body_grid(const BodyFrame& body, const std::string& file) {
-  const std::string points = std::to_string(body.ids.size());
+  const std::string points = std::to_string(body.points);
   const std::string root = file + ":/" + body.body + "/";
   // The cells are spelt out because only some readers number the points of a Polyvertex themselves.
   std::string result =
@@ -102,7 +102,7 @@ std::string frame_grid(const OutputFrame& frame, const std::string& file) {
                        "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" +
                        "      <Time Value=\"" + exact(frame.time) + "\"/>\n";
   for (const auto& body : frame.bodies) {
-    if (!body.ids.empty()) result += body_grid(body, file);  // readers stumble over empty grids
+    if (body.points > 0) result += body_grid(body, file);  // readers stumble over empty grids
   }
   result.pop_back();  // the end begins with its line break
   return result.append(kFrameEnd);

@@ -10,6 +10,7 @@
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
+#include "krater/simulation/point_maker.hpp"
 
 namespace krater {
 
@@ -170,18 +171,18 @@ void Simulation::place_rigid_bodies() {
 
 void Simulation::place_points() {
   std::map<std::pair<BlockKey, int>, int> where;
-  std::vector<double> record;
   double smallest = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (bodies_[b]->options().mesh) continue;
     const std::vector<SeedPoint> seeds = bodies_[b]->seeds(scene_);
     const int stride = bodies_[b]->layout().stride();
+    PointMaker maker{scene_, static_cast<int>(b), *bodies_[b]};
     for (std::size_t id = 0; id < seeds.size(); ++id) {
       const BlockKey key = block_of(geometry_, seeds[id].x.data());
       const auto [at, is_new] =
           where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches().size()));
       if (is_new) grid_.add_patch(key, static_cast<int>(b), stride);
-      bodies_[b]->make_point(scene_, seeds[id], id, record);
+      std::vector<double>& record = maker.make(seeds[id], id);
       if (detonation_.burns(static_cast<int>(b)))
         record[static_cast<std::size_t>(bodies_[b]->slot(field::SinceLighting::info))] =
             detonation_.since_lighting(static_cast<int>(b), seeds[id].x);

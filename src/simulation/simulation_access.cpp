@@ -87,26 +87,28 @@ Totals Simulation::totals_of_set(int s) const {
   const int dim = geometry_.dimension;
   const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
   const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+  // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
   for (int i = 0; i < patch.points.count(); ++i) {
-    const auto at = [&](int offset, int k) { return patch.points.at(offset + kLanes * k, i); };
-    const double m = at(c.mass, 0);
+    const double* p = patch.points.point(i);
+    const double m = p[c.mass];
     t.count += 1;
     t.mass += m;
-    t.kinetic += point_kinetic(patch, i, c, geometry_);
-    if (c.energy >= 0) t.internal += m * at(c.energy, 0);
-    if (c.carried >= 0) t.internal += m * at(c.carried, 0);
-    for (int a = 0; a < dim; ++a) t.momentum[static_cast<std::size_t>(a)] += m * at(c.velocity, a);
+    t.kinetic += point_kinetic(p, c, geometry_);
+    if (c.energy >= 0) t.internal += m * p[c.energy];
+    if (c.carried >= 0) t.internal += m * p[c.carried];
+    for (int a = 0; a < dim; ++a)
+      t.momentum[static_cast<std::size_t>(a)] += m * p[c.velocity + kLanes * a];
     // Plane of rotation: grid axes 0 and 1 (x and y in 3d, x and z in plane strain).
     t.angular_momentum +=
-        m * (at(c.position, 0) * at(c.velocity, 1) - at(c.position, 1) * at(c.velocity, 0));
+        m * (p[c.position] * p[c.velocity + kLanes] - p[c.position + kLanes] * p[c.velocity]);
     if (c.affine < 0) continue;
-    // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
     const auto F = [&](int k, int a) {
-      return c.map >= 0 ? at(c.map, dim * k + a) : (k == a ? 1.0 : 0.0);
+      return c.map >= 0 ? p[c.map + kLanes * (dim * k + a)] : (k == a ? 1.0 : 0.0);
     };
     for (int a = 0; a < dim; ++a)
-      t.angular_momentum += m * Support::moment * geometry_.h * geometry_.h *
-                            (F(0, a) * at(c.affine, dim + a) - F(1, a) * at(c.affine, a));
+      t.angular_momentum +=
+          m * Support::moment * geometry_.h * geometry_.h *
+          (F(0, a) * p[c.affine + kLanes * (dim + a)] - F(1, a) * p[c.affine + kLanes * a]);
   }
   return t;
 }
@@ -162,8 +164,8 @@ double Simulation::energy_per_mass(int s, int point) const {
     }
   } else {
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(set(s).body)].columns;
-    energy = point_kinetic(grid_.patches()[static_cast<std::size_t>(s)], point, c, geometry_) /
-             value(s, point, c.mass / kLanes);
+    energy =
+        point_kinetic(set(s).points->point(point), c, geometry_) / value(s, point, c.mass / kLanes);
   }
   const int e = body.slot(field::InternalEnergy::info);
   return e < 0 ? energy : energy + value(s, point, e);

@@ -2,6 +2,7 @@
 // The state of a simulation as blobs. All that belongs to a body stands under its name, so the
 // order of the bodies in the scene may change.
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,14 @@ std::string columns_text(const Body& body) {
   for (const Column& c : body.layout().columns())
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", c.field->name, c.components);
   return text;
+}
+
+/// The slots of a body, in the order of the rows of "points".
+std::vector<int> all_slots(const Body& body) {
+  std::vector<int> slots;
+  for (const Column& c : body.layout().columns())
+    for (int k = 0; k < c.components; ++k) slots.push_back(c.offset / kLanes + k);
+  return slots;
 }
 
 /// The entries of the account: "kinetic, internal, ...".
@@ -79,15 +88,23 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   }
   out.blobs.push_back(integers(blob_name(body, "patches"), std::move(keys)));
   out.blobs.push_back({blob_name(body, "columns"), {}, {}, {}, columns_text(body)});
-  std::vector<double> values;
-  std::uint64_t rows = 0;
-  for (const Column& c : body.layout().columns())
-    for (int k = 0; k < c.components; ++k, ++rows)
-      for (const int s : sets)
-        for (int i = 0; i < set(s).count(); ++i)
-          values.push_back(value(s, i, c.offset / kLanes + k));
-  const std::uint64_t points = rows > 0 ? values.size() / rows : 0;
-  out.blobs.push_back({blob_name(body, "points"), {rows, points}, std::move(values), {}, {}});
+  std::uint64_t points = 0;
+  for (const int s : sets) points += static_cast<std::uint64_t>(set(s).count());
+  const std::vector<int> slots = all_slots(body);
+  const std::vector<std::uint64_t> shape{slots.size(), points};
+  out.blobs.push_back({blob_name(body, "points"),
+                       shape,
+                       {},
+                       {},
+                       {},
+                       [this, slots, sets](std::size_t first, std::size_t count, double* to) {
+                         for (std::size_t row = first; row < first + count; ++row)
+                           for (const int s : sets) {
+                             const PointStore& from = *set(s).points;
+                             for (int i = 0; i < from.count(); ++i)
+                               *to++ = from.at(kLanes * slots[row], i);
+                           }
+                       }});
   if (mesh_ && !sets.empty())
     out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(sets.front())));
   if (const RigidBody* rigid = rigid_.find(b))
@@ -111,13 +128,32 @@ Checkpoint Simulation::save() const {
   return out;
 }
 
+void Simulation::restore_columns(const CheckpointBlob& points, const Body& body,
+                                 const std::vector<int>& sets) {
+  std::uint64_t count = 0;
+  for (const int s : sets) count += static_cast<std::uint64_t>(set(s).count());
+  const std::vector<int> slots = all_slots(body);
+  if (!points.matrix || points.shape != std::vector<std::uint64_t>{slots.size(), count})
+    throw InputError("checkpoint: body '" + body.name() +
+                     "' has another number of points or columns there");
+  std::vector<double> x(count);
+  for (std::size_t row = 0; row < slots.size(); ++row) {
+    points.matrix(row, 1, x.data());
+    const double* from = x.data();
+    for (const int s : sets) {
+      PointStore& to = moving().change(s);
+      for (int i = 0; i < to.count(); ++i) to.at(kLanes * slots[row], i) = *from++;
+    }
+  }
+}
+
 void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   const Body& body = *bodies_[static_cast<std::size_t>(b)];
   if (demand(checkpoint, blob_name(body, "columns")).text != columns_text(body))
     throw InputError("checkpoint: body '" + body.name() +
                      "' has other columns there: another law, method or version of krater");
   if (mesh_) return restore_mesh(b, checkpoint);
-  const std::vector<double>& x = demand(checkpoint, blob_name(body, "points")).doubles;
+  const CheckpointBlob& points = demand(checkpoint, blob_name(body, "points"));
   const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
   const std::size_t first = grid_.patches().size();
@@ -126,12 +162,9 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
     for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(keys[i + a]);
     grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 3]));
   }
-  std::size_t at = 0;
-  for (const Column& c : body.layout().columns())
-    for (int k = 0; k < c.components; ++k)
-      for (std::size_t p = first; p < grid_.patches().size(); ++p)
-        for (int i = 0; i < grid_.patches()[p].points.count(); ++i)
-          set_value(static_cast<int>(p), i, c.offset / kLanes + k, x.at(at++));
+  std::vector<int> sets(grid_.patches().size() - first);
+  std::iota(sets.begin(), sets.end(), static_cast<int>(first));
+  restore_columns(points, body, sets);
   for (std::size_t p = first; p < grid_.patches().size(); ++p)
     if (!grid_.patches()[p].points.empty()) grid_.patches()[p].points.pad(columns.mass);
   for (RigidBody& rigid : rigid_.all()) {

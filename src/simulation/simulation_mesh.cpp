@@ -83,18 +83,9 @@ void Simulation::restore_mesh(int b, const Checkpoint& checkpoint) {
   const CheckpointBlob* points = checkpoint.find("bodies/" + body.name() + "/points");
   const CheckpointBlob* mesh = checkpoint.find("bodies/" + body.name() + "/mesh");
   const std::vector<int> sets = sets_of(b);
-  std::size_t values = 0;
-  for (const int s : sets)
-    values += static_cast<std::size_t>(set(s).count()) *
-              static_cast<std::size_t>(body.layout().stride() / kLanes);
-  if (points == nullptr || mesh == nullptr || points->doubles.size() != values)
+  if (points == nullptr || mesh == nullptr)
     throw InputError("checkpoint: body '" + body.name() + "' has another mesh there");
-  std::size_t at = 0;
-  for (const Column& c : body.layout().columns())
-    for (int k = 0; k < c.components; ++k)
-      for (const int s : sets)
-        for (int i = 0; i < set(s).count(); ++i)
-          set_value(s, i, c.offset / kLanes + k, points->doubles[at++]);
+  restore_columns(*points, body, sets);
   for (const int s : sets) {
     if (!mesh_->set_state(s, mesh->doubles))
       throw InputError("checkpoint: body '" + body.name() + "' has another mesh there");

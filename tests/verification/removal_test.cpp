@@ -83,7 +83,7 @@ TEST_SUITE("verification") {
                             n == 3 ? IsaLevel::portable : best_isa_level());
       run_to(run, 15e-6);
       REQUIRE(run.sim->audit().removed_failed > 0);
-      const Checkpoint half = run.sim->save();
+      const Checkpoint half = saved_state(*run.sim);
       run_to(run, 18e-6);
       const auto now = all_bits(*run.sim);
       if (bits.empty()) bits = now;

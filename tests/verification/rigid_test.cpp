@@ -268,7 +268,7 @@ TEST_SUITE("verification") {
     run_steps(three, 150);
     set_threads(before);
     run_steps(one, 70);
-    const Checkpoint middle = one.sim->save();
+    const Checkpoint middle = saved_state(*one.sim);
     run_steps(one, 80);
     CHECK(all_bits(*one.sim) == all_bits(*three.sim));
     Run again = start_text(oblique());

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -95,9 +96,33 @@ void set_column(Run& run, const FieldInfo& field, int component, const std::vect
   run.sim->book_change();
 }
 
+namespace {
+
+std::vector<double> matrix_of(const CheckpointBlob& blob) {
+  if (!blob.matrix) return {};
+  std::vector<double> values(blob.shape.at(0) * blob.shape.at(1));
+  if (!values.empty()) blob.matrix(0, blob.shape[0], values.data());
+  return values;
+}
+
+}  // namespace
+
+Checkpoint saved_state(const Simulation& sim) {
+  Checkpoint state = sim.save();
+  for (CheckpointBlob& blob : state.blobs) {
+    if (!blob.matrix) continue;
+    blob.matrix = [values = matrix_of(blob), width = blob.shape[1]](
+                      std::size_t first, std::size_t count, double* out) {
+      std::copy_n(values.data() + first * width, count * width, out);
+    };
+  }
+  return state;
+}
+
 std::vector<std::uint64_t> all_bits(const Simulation& sim) {
   std::vector<std::uint64_t> bits;
   for (const CheckpointBlob& blob : sim.save().blobs) {
+    for (const double x : matrix_of(blob)) bits.push_back(std::bit_cast<std::uint64_t>(x));
     for (const double x : blob.doubles) bits.push_back(std::bit_cast<std::uint64_t>(x));
     for (const std::int64_t x : blob.integers) bits.push_back(static_cast<std::uint64_t>(x));
   }

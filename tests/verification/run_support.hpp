@@ -36,6 +36,9 @@ std::vector<double> column(const Run& run, const FieldInfo& field, int component
 void set_column(Run& run, const FieldInfo& field, int component, const std::vector<double>& values,
                 int body = 0);
 
+/// A state of its own, whatever the simulation does afterwards.
+Checkpoint saved_state(const Simulation& sim);
+
 /// Every bit of a run: clock, audit, patches in their order, all columns of all bodies.
 std::vector<std::uint64_t> all_bits(const Simulation& sim);
 

@@ -25,6 +25,7 @@
 /// Assumes points no further apart than about 1.5 a (stretch 3), and volumes right on the average
 /// over a few cells. Gaps below a/2 inside a body are not seen. A part thinner than five nodes has
 /// no inside to take f from: f = 1.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -49,7 +50,19 @@ struct NodeWeights {
   std::array<double, 3> weight;
 };
 
-NodeWeights node_weights(const MeasuringAxis& axis, double x);
+/// Near the ends, where weights are folded or cut.
+NodeWeights node_weights_at_end(const MeasuringAxis& axis, double u, int nearest);
+
+/// Every history row pays for this once per point and axis.
+inline NodeWeights node_weights(const MeasuringAxis& axis, double x) {
+  const double u = (x - axis.origin) / axis.spacing;
+  const int last = axis.count - 1;
+  const int nearest = static_cast<int>(std::clamp(u, 0.0, static_cast<double>(last)) + 0.5);
+  if (nearest <= 1 || nearest >= last - 1) return node_weights_at_end(axis, u, nearest);
+  const double f = u - nearest;
+  return {{nearest - 1, nearest, nearest + 1},
+          {0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f)}};
+}
 
 /// Quadratic B-spline of u = distance / width; integral 1, support |u| < 3/2.
 double bspline(double u);

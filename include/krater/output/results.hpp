@@ -2,13 +2,15 @@
 #pragma once
 /// \file output/results.hpp
 /// What a run hands to the writers: plain arrays, no knowledge of blocks or lanes. Written by
-/// src/output (the only HDF5 in the program). Files appear complete or not at all: they are built
-/// in memory, written beside (`NAME.part`) and renamed, so a killed run leaves everything it wrote
-/// before readable. Peak memory is twice the data of the file being written. The layout of the
-/// files is in src/output/README.md. Not thread-safe: one thread calls; frames are packed and
-/// written by another meanwhile, and whatever else needs HDF5 waits for it.
+/// src/output (the only HDF5 in the program). Files appear complete or not at all: they are written
+/// beside (`NAME.part`) and renamed, so a killed run leaves everything it wrote before readable.
+/// What is large is asked for piece by piece while it is written, and never copied as a whole. The
+/// layout of the files is in src/output/README.md. Not thread-safe: one thread calls; a frame is
+/// packed by all threads, and waits for the disk beside the computation; whatever else needs HDF5
+/// waits for it.
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -23,20 +25,25 @@ struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One field of one body, points in order of their id. `components` values per point, point-major,
-/// stored as they come: vectors should have three components in every frame of reference (ParaView
-/// draws no others), symmetric tensors xx yy zz yz xz xy.
+/// `count` rows of a matrix, from the row `first` on, into `out`. Called from several threads.
+template <class T>
+using Rows = std::function<void(std::size_t first, std::size_t count, T* out)>;
+
+/// One field of one body, points in order of their id. `components` values per point, a row per
+/// point: vectors should have three components in every frame of reference (ParaView draws no
+/// others), symmetric tensors xx yy zz yz xz xy.
 struct FieldArray {
   std::string name, unit, meaning;
   int components = 1;
   std::vector<std::string> component_names;  ///< e.g. r z | xx yy zz yz xz xy; empty for scalars
-  std::vector<double> values;
+  Rows<double> values;
 };
 
 struct BodyFrame {
   std::string body;
-  std::vector<std::int64_t> ids;
-  std::vector<double>
+  std::size_t points = 0;
+  Rows<std::int64_t> ids;
+  Rows<double>
       coordinates;  ///< 3 per point (x, y, z); axisymmetric (r, 0, z), plane strain (x, 0, z)
   std::vector<FieldArray> fields;
 };
@@ -72,13 +79,14 @@ struct SeriesTable {
 };
 
 /// Everything needed to continue with the same bits: named blobs, written and read verbatim (NaN
-/// payloads, -0.0 and denormals included). At most one of the three arrays is filled.
+/// payloads, -0.0 and denormals included). At most one of the four is filled.
 struct CheckpointBlob {
   std::string name;                    ///< unique; '/' makes groups in the file
   std::vector<std::uint64_t> shape;    ///< empty: one-dimensional
   std::vector<double> doubles;         ///< either doubles ...
   std::vector<std::int64_t> integers;  ///< ... or integers
   std::string text;                    ///< ... or text (bytes, no shape)
+  Rows<double> matrix{};               ///< ... or a large matrix of that shape
 };
 struct Checkpoint {
   std::vector<CheckpointBlob> blobs;
@@ -127,10 +135,10 @@ class ResultsFolder {
   /// After a restart: drops frames and rows of the history later than `time` [s]. Throws InputError
   /// when the history there has other columns than this `row`.
   void continue_from(double time, const std::vector<Quantity>& row);
-  /// frames/NNNNNN.h5, frames.h5, frames.xmf: begins, and returns. Errors are thrown by the next
-  /// call that waits.
-  void write_frame(OutputFrame frame);
-  void wait();  ///< until the frame is written; before the next is made, so that there is one
+  /// frames/NNNNNN.h5, frames.h5, frames.xmf: packs and writes, and leaves the disk to another
+  /// thread. Errors may be thrown by the next call that waits.
+  void write_frame(const OutputFrame& frame);
+  void wait();  ///< until the last frame is on disk
   void write_history(
       const std::vector<Quantity>& row);  ///< a line of history.csv; the first column is time
   void write_checkpoint(const Checkpoint& checkpoint);  ///< checkpoint.h5

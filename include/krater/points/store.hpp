@@ -35,6 +35,9 @@ class PointStore {
     return records_.data()[index(place, i)];
   }
 
+  /// Point i by places: point(i)[place], for loops over many.
+  KRATER_FORCE_INLINE const double* point(int i) const { return records_.data() + index(0, i); }
+
   /// One point as stride/8 doubles; pad() afterwards.
   void append(const double* point);
   /// The same handed out: stride/8 doubles at the end of `out`.

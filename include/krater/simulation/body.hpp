@@ -43,9 +43,6 @@ class Body {
   /// Seeds of the body inside the domain; throws InputError when there are none, or when the body
   /// is no more than a cell thick.
   std::vector<SeedPoint> seeds(const Scene& scene);
-  /// A new point as one record of stride/8 doubles.
-  void make_point(const Scene& scene, const SeedPoint& seed, std::size_t id,
-                  std::vector<double>& record) const;
   /// Offset in a point's record (doubles), -1 if the column does not exist.
   int slot(const FieldInfo& field, int component = 0) const;
 

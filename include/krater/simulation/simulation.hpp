@@ -95,6 +95,7 @@ class Simulation {
   /// After set_value: what it changed of the energy is work from outside.
   void book_change();
 
+  /// The points as they are when they are read: write it before the next step.
   Checkpoint save() const;
   void restore(
       const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
@@ -112,6 +113,8 @@ class Simulation {
   void place_rigid_bodies();
   void save_body(int body, Checkpoint& out) const;
   void restore_body(int body, const Checkpoint& checkpoint);
+  void restore_columns(const CheckpointBlob& points, const Body& body,
+                       const std::vector<int>& sets);
   void choose_first_step();
   Triple apply_body_force();  ///< on the points [N]
   void watch_impulses();

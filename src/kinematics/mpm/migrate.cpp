@@ -80,7 +80,7 @@ void tally(Patch& patch, const PointColumns& c, const GridGeometry& geometry, in
   const double m = patch.points.at(c.mass, i);
   removed.count += 1;
   removed.mass += m;
-  removed.kinetic += point_kinetic(patch, i, c, geometry);
+  removed.kinetic += point_kinetic(patch.points.point(i), c, geometry);
   if (c.energy >= 0) removed.internal += m * patch.points.at(c.energy, i);
   if (c.carried >= 0) removed.internal += m * patch.points.at(c.carried, i);
   for (int a = 0; a < geometry.dimension; ++a)
@@ -153,23 +153,6 @@ void post(Patch& patch, int slot, int i) {
 }
 
 }  // namespace
-
-double point_kinetic(const Patch& patch, int i, const PointColumns& c,
-                     const GridGeometry& geometry) {
-  const PointStore& points = patch.points;
-  const int dimension = geometry.dimension;
-  double twice = 0;
-  for (int a = 0; a < dimension; ++a) {
-    const double v = points.at(c.velocity + kLanes * a, i);
-    twice += v * v;
-  }
-  if (c.affine >= 0)
-    for (int k = 0; k < dimension * dimension; ++k) {
-      const double L = points.at(c.affine + kLanes * k, i);
-      twice += Support::moment * geometry.h * geometry.h * L * L;
-    }
-  return 0.5 * points.at(c.mass, i) * twice;
-}
 
 Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
                         const PointColumns& columns, const unsigned char* leavers) {

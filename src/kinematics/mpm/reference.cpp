@@ -125,9 +125,9 @@ Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
   for (Patch& patch : grid.patches()) {
     if (patch.body != body) continue;
     for (int i = 0; i < patch.points.count(); ++i) {
-      const double before = point_kinetic(patch, i, columns, grid.geometry());
+      const double before = point_kinetic(patch.points.point(i), columns, grid.geometry());
       renew_point(patch.points, columns, grid.geometry().dimension, i);
-      const double lost = before - point_kinetic(patch, i, columns, grid.geometry());
+      const double lost = before - point_kinetic(patch.points.point(i), columns, grid.geometry());
       patch.points.at(columns.energy, i) += lost / patch.points.at(columns.mass, i);
       heat += lost;
     }

@@ -156,9 +156,9 @@ TEST_SUITE("unit") {
     CHECK(message("plain.h5").find("one of format 1") != std::string::npos);
 
     std::string later = read_file(save(folder, small_checkpoint()));
-    later[later.find("format 2") + 7] = '3';
+    later[later.find("format 3") + 7] = '4';
     write_file(folder / "later.h5", later);
-    CHECK(message("later.h5").find("of another format than 2") != std::string::npos);
+    CHECK(message("later.h5").find("of another format than 3") != std::string::npos);
   }
 
   TEST_CASE("checkpoint: blobs that contradict themselves are errors of the program") {

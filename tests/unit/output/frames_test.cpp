@@ -68,7 +68,11 @@ TEST_SUITE("unit") {
     ResultsFolder results(folder / "run");
     OutputFrame frame = small_frame(0, 0);
     frame.bodies[0].body = "a<b";
-    frame.bodies.push_back({"gone", {}, {}, {{"pressure", "Pa", "", 1, {}, {}}}});
+    frame.bodies.push_back({"gone",
+                            0,
+                            rows_of<std::int64_t>({}),
+                            rows_of<double>({}),
+                            {{"pressure", "Pa", "", 1, {}, rows_of<double>({})}}});
     results.write_frame(frame);
     results.write_frame(small_frame(1, 0.1));
     results.wait();
@@ -144,9 +148,9 @@ TEST_SUITE("unit") {
         results.wait();
       });
     };
-    CHECK(refused([](auto& b) { b.fields[0].values.pop_back(); }) ==
-          "frame: body 'rod': wrong number of values of 'pressure'");
-    CHECK(refused([](auto& b) { b.coordinates.pop_back(); }).find("three coordinates") !=
+    CHECK(refused([](auto& b) { b.fields[0].values = nullptr; }) ==
+          "frame: body 'rod': no values of 'pressure'");
+    CHECK(refused([](auto& b) { b.coordinates = nullptr; }).find("no ids or coordinates") !=
           std::string::npos);
     CHECK(refused([](auto& b) { b.fields[1].component_names.pop_back(); }).find("names") !=
           std::string::npos);

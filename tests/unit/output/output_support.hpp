@@ -40,22 +40,36 @@ inline void write_file(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
+template <class T>
+Rows<T> rows_of(std::vector<T> values, int width = 1) {
+  return [values = std::move(values), width](std::size_t first, std::size_t count, T* out) {
+    const auto w = static_cast<std::size_t>(width);
+    for (std::size_t i = 0; i < count * w; ++i) out[i] = values.at(first * w + i);
+  };
+}
+
 /// Two points of a rod with every kind of field.
 inline OutputFrame small_frame(int number, double time) {
   BodyFrame rod;
   rod.body = "rod";
-  rod.ids = {3, 7};
-  rod.coordinates = {1, 0, 2, 3, 0, 4};
+  rod.points = 2;
+  rod.ids = rows_of<std::int64_t>({3, 7});
+  rod.coordinates = rows_of<double>({1, 0, 2, 3, 0, 4}, 3);
   rod.fields = {
-      {"pressure", "Pa", "pressure", 1, {}, {10, 20}},
-      {"velocity", "m/s", "velocity", 3, {"r", "t", "z"}, {1, 0, 2, 3, 0, 4}},
+      {"pressure", "Pa", "pressure", 1, {}, rows_of<double>({10, 20})},
+      {"velocity", "m/s", "velocity", 3, {"r", "t", "z"}, rows_of<double>({1, 0, 2, 3, 0, 4}, 3)},
       {"stress",
        "Pa",
        "stress",
        6,
        {"xx", "yy", "zz", "yz", "xz", "xy"},
-       {1, 2, 3, 4, 5, 6, 11, 12, 13, 14, 15, 16}},
-      {"affine_velocity", "1/s", "matrix", 4, {"rr", "rz", "zr", "zz"}, {1, 2, 3, 4, 5, 6, 7, 8}}};
+       rows_of<double>({1, 2, 3, 4, 5, 6, 11, 12, 13, 14, 15, 16}, 6)},
+      {"affine_velocity",
+       "1/s",
+       "matrix",
+       4,
+       {"rr", "rz", "zr", "zz"},
+       rows_of<double>({1, 2, 3, 4, 5, 6, 7, 8}, 4)}};
   return {number, time, 100 * number, {rod}};
 }
 

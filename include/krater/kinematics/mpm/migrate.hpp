@@ -26,8 +26,18 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
 Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
                      const PointColumns& columns);
 
-/// Kinetic energy of point `i` of a patch, affine part included (second moment h^2/4) [J].
-double point_kinetic(const Patch& patch, int i, const PointColumns& columns,
-                     const GridGeometry& geometry);
+/// Kinetic energy of a point (PointStore::point), affine part included (second moment h^2/4) [J].
+inline double point_kinetic(const double* point, const PointColumns& c, const GridGeometry& grid) {
+  double twice = 0;
+  for (int a = 0; a < grid.dimension; ++a) {
+    const double v = point[c.velocity + kLanes * a];
+    twice += v * v;
+  }
+  for (int k = 0; c.affine >= 0 && k < grid.dimension * grid.dimension; ++k) {
+    const double L = point[c.affine + kLanes * k];
+    twice += Support::moment * grid.h * grid.h * L * L;
+  }
+  return 0.5 * point[c.mass] * twice;
+}
 
 }  // namespace krater
