@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <vector>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -14,8 +15,25 @@
 namespace krater {
 
 namespace {
+
 int thread_count = 1;
-}
+
+/// The items that one thread begins with: the same in every step, so that what belongs to them
+/// stays in its cache. Who has done his own takes from the others'.
+struct alignas(128) Range {
+  std::atomic<long> next;
+  long end;
+
+  template <class Work>
+  void take(const Work& work) {
+    while (next.load(std::memory_order_relaxed) < end) {
+      const long i = next.fetch_add(1, std::memory_order_relaxed);
+      if (i < end) work(i);
+    }
+  }
+};
+
+}  // namespace
 
 int set_threads(int count) {
   thread_count = count > 0 ? count : omp_get_max_threads();
@@ -37,9 +55,10 @@ void flush_denormals() {
 
 namespace detail {
 
-void for_each(std::size_t count, void (*call)(const void*, std::size_t), const void* context) {
+void for_each(std::size_t count, std::size_t few, void (*call)(const void*, std::size_t),
+              const void* context) {
   const auto n = static_cast<long>(count);
-  if (thread_count == 1 || n <= 1) {  // OpenMP asks for a lock per item even then
+  if (thread_count == 1 || count <= few) {  // OpenMP asks for a lock per item even then
     flush_denormals();
     for (long i = 0; i < n; ++i) call(context, static_cast<std::size_t>(i));
     return;
@@ -49,21 +68,27 @@ void for_each(std::size_t count, void (*call)(const void*, std::size_t), const v
   std::atomic<long> failed{n};
   std::exception_ptr error;
   std::mutex guard;
-#pragma omp parallel num_threads(thread_count)
+  const auto work = [&](long i) {
+    if (i > failed.load(std::memory_order_relaxed)) return;
+    try {
+      call(context, static_cast<std::size_t>(i));
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock{guard};
+      if (i >= failed) return;
+      failed = i;
+      error = std::current_exception();
+    }
+  };
+  std::vector<Range> ranges(static_cast<std::size_t>(thread_count));
+  for (std::size_t t = 0; t < ranges.size(); ++t) {
+    ranges[t].next = n * static_cast<long>(t) / thread_count;
+    ranges[t].end = n * static_cast<long>(t + 1) / thread_count;
+  }
+#pragma omp parallel num_threads(thread_count)  // always as many: libgomp ends those left over
   {
     flush_denormals();
-#pragma omp for schedule(dynamic, 1)
-    for (long i = 0; i < n; ++i) {
-      if (i > failed.load(std::memory_order_relaxed)) continue;
-      try {
-        call(context, static_cast<std::size_t>(i));
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock{guard};
-        if (i >= failed) continue;
-        failed = i;
-        error = std::current_exception();
-      }
-    }
+    const auto own = static_cast<std::size_t>(omp_get_thread_num());
+    for (std::size_t k = 0; k < ranges.size(); ++k) ranges[(own + k) % ranges.size()].take(work);
   }
   if (error) std::rethrow_exception(error);
 }

@@ -108,7 +108,8 @@ struct PatchLinks {
   std::array<int, 27> neighbours{};  ///< patches of the same body at key + {-1,0,1}^dim, -1: none
 };
 
-struct Patch {
+/// Two patches share no cache line (nor a pair of them): neighbours are swept by different threads.
+struct alignas(128) Patch {
   BlockKey key;
   int body = 0;
   FieldId field{};  ///< velocity field of the body, filled by rebuild

@@ -195,6 +195,15 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
   return removed;
 }
 
+/// Patches without points go; true: there were some.
+bool drop_empty(BlockGrid& grid) {
+  const auto& all = grid.patches();
+  const bool emptied =
+      std::any_of(all.begin(), all.end(), [](const Patch& p) { return p.points.count() == 0; });
+  if (emptied) grid.rebuild(true);
+  return emptied;
+}
+
 bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
   const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
   std::set<std::pair<BlockKey, int>> missing;
@@ -207,6 +216,10 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
     grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride);
   }
   if (!missing.empty()) grid.rebuild(false);
+  const auto& all = grid.patches();
+  if (std::all_of(all.begin(), all.end(),
+                  [](const Patch& p) { return p.steady && p.outbox.used == 0; }))
+    return drop_empty(grid);
 
   for_each(grid.patches().size(), [&](std::size_t p) {
     Patch& patch = grid.patches()[p];
@@ -224,13 +237,8 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
     }
     if (patch.points.count() > 0) patch.points.pad(body.columns.mass);
   });
-  bool emptied = false;
-  for (Patch& patch : grid.patches()) {
-    patch.outbox.clear();
-    emptied = emptied || patch.points.count() == 0;
-  }
-  if (emptied) grid.rebuild(true);
-  return emptied || !missing.empty();
+  for (Patch& patch : grid.patches()) patch.outbox.clear();
+  return drop_empty(grid) || !missing.empty();
 }
 
 Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,

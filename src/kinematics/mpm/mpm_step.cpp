@@ -205,10 +205,14 @@ void MpmStep::provide_memory() {
 void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                                 double dt) {
   const SweepSettings s = settings(dt);
-  for_each(grid_.patches().size(), [&](std::size_t p) {
+  stale_.clear();
+  for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
     Patch& patch = grid_.patches()[p];
     patch.result.fault = {};
-    if (patch.tile.state != Tile::State::stale) return;
+    if (patch.tile.state == Tile::State::stale) stale_.push_back(p);
+  }
+  for_each(stale_.size(), [&](std::size_t i) {
+    Patch& patch = grid_.patches()[stale_[i]];
     kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
   });
   lap(Phase::scatter);
@@ -219,25 +223,33 @@ double MpmStep::momentum(double& dt, double force_share) {
   MomentumSettings s = node_settings_;
   s.dt_force = force_share * dt;
   const bool fluids = !fluid_patches_.empty(), loads = loads_.any() && force_share > 0;
-  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
-    NodeBlock& block = grid_.node_blocks()[n];
-    if (asleep(block)) return;
-    kernels_.sum_tiles(grid_, block);
-    if (!block.at_boundary && !fluids && !loads) kernels_.momentum(block, s);
-  });
+  for_each(
+      grid_.node_blocks().size(),
+      [&](std::size_t n) {
+        NodeBlock& block = grid_.node_blocks()[n];
+        if (asleep(block)) return;
+        kernels_.sum_tiles(grid_, block);
+        if (!block.at_boundary && !fluids && !loads) kernels_.momentum(block, s);
+      },
+      few_blocks());
   if (fluids) {
     if (force_share > 0 || method_.update == Update::usf) collect_pressure(settings(dt));
     if (force_share > 0) add_pressure_force(settings(dt));
   }
   if (loads) loads_.add_forces(dt, node_settings_.smallest_mass);
   if (fluids || loads)
-    for_each(grid_.node_blocks().size(), [&](std::size_t n) {
-      if (!grid_.node_blocks()[n].at_boundary) kernels_.momentum(grid_.node_blocks()[n], s);
-    });
+    for_each(
+        grid_.node_blocks().size(),
+        [&](std::size_t n) {
+          if (!grid_.node_blocks()[n].at_boundary) kernels_.momentum(grid_.node_blocks()[n], s);
+        },
+        few_blocks());
   lap(Phase::nodes);
   boundary_.fold();
-  for_each(boundary_blocks_.size(),
-           [&](std::size_t i) { kernels_.momentum(grid_.node_blocks()[boundary_blocks_[i]], s); });
+  for_each(
+      boundary_blocks_.size(),
+      [&](std::size_t i) { kernels_.momentum(grid_.node_blocks()[boundary_blocks_[i]], s); },
+      few_blocks());
   double max_change = 0;
   for (const NodeBlock& block : grid_.node_blocks())
     max_change = std::max(max_change, block.sums.max_change);

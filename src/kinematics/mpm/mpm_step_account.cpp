@@ -16,9 +16,12 @@ void MpmStep::watch_energy() const {
 // k of all nodes, when v+ is final, in place of the volumes.
 void MpmStep::write_node_work() {
   const bool moments = settings(0).moments;
-  for_each(grid_.node_blocks().size(), [&](std::size_t n) {
-    if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks()[n], moments);
-  });
+  for_each(
+      grid_.node_blocks().size(),
+      [&](std::size_t n) {
+        if (!keeps_volumes(grid_.node_blocks()[n])) kernels_.work(grid_.node_blocks()[n], moments);
+      },
+      few_blocks());
   lap(Phase::nodes);
   heat_ = {};
   if (contact_.active())

@@ -149,6 +149,8 @@ class MpmStep final : public Kinematics {
   void measure_gaps();
   CutCells cut_cells(int axis, int side) const;
   SweepSettings settings(double dt) const;
+  /// Node blocks that are not worth a second thread (for_each).
+  std::size_t few_blocks() const { return grid_.geometry().dimension == 3 ? 8 : 64; }
   SweepScratch scratch();
 
   void strain_last_motion();
@@ -180,6 +182,7 @@ class MpmStep final : public Kinematics {
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;
   std::vector<std::size_t> boundary_blocks_;
+  std::vector<std::size_t> stale_;  ///< patches that have not been scattered ahead
   TimeStepLimit limit_;
   double last_step_ = 0;  ///< usf: strains are those of the step before [s]
   AlignedBuffer zeros_, filtered_;
