@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "krater/core/errors.hpp"
+#include "krater/measure/gauge_section.hpp"
 #include "krater/points/fields.hpp"
 
 namespace krater {
@@ -94,15 +95,18 @@ GaugeField find_gauge_field(const Simulation& sim, const GaugeOptions& gauge, st
     name.resize(name.size() - kRate.size());
   }
   std::string known;
-  const bool found =
-      find_column(body, frame, name, out, known) || find_derived(body, frame, name, out);
+  const bool found = find_column(body, frame, name, out, known) ||
+                     find_derived(body, frame, name, out) ||
+                     (gauge.normal && find_section_field(body, frame, name, out));
   if (!found)
     throw InputError(fmt::format(
         "{}.fields: the points of {} carry no '{}' (known: speed, von_mises{}, stress_{}, "
         "strain_{}, "
-        "..., and each with _rate)",
+        "..., {}, and each with _rate)",
         gauge.where, body.name(), name, known, frame == Frame::axisymmetric ? "rr" : "xx",
-        frame == Frame::axisymmetric ? "rr" : "xx"));
+        frame == Frame::axisymmetric ? "rr" : "xx",
+        gauge.normal ? "of the section area, force_z, mass_flux, momentum_flux_z, ..."
+                     : "with section: area, force_z, mass_flux, momentum_flux_z"));
   if (out.change == GaugeField::Change::rate) out.unit += " s^-1";
   return out;
 }
@@ -138,7 +142,7 @@ double value_at(const Simulation& sim, const GaugeField& field, int set, int poi
       for (int k = 0; k < 9; ++k) F(k / 3, k % 3) = at(k);
       return hencky(F, field.component);
     }
-    case GaugeField::Kind::measure:
+    default:
       break;
   }
   return std::numeric_limits<double>::quiet_NaN();

@@ -16,6 +16,10 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
+double projection(const Triple& a, const Triple& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 const Body& body_of(const Simulation& sim, const GaugeOptions& gauge) {
   return *sim.bodies()[static_cast<std::size_t>(gauge.body)];
 }
@@ -75,6 +79,7 @@ Gauges::Gauges(const Simulation& sim, Measurements& measurements)
                                   : find_gauge_field(sim, gauge, gauge.fields[f]));
     for (std::size_t k = 0; k < gauge.at.size() && !gauge.fixed; ++k)
       record.ids.push_back(find_id(sim, gauge, k));
+    if (gauge.normal) place_sections(sim, g);
     const std::size_t places = std::max<std::size_t>(gauge.at.size(), 1);
     record.gone.assign(places, -1);
     record.values.resize(places * gauge.fields.size());
@@ -90,31 +95,84 @@ void Gauges::sample_measures(const Simulation& sim, std::size_t g) {
   if (!any && record.gone[0] < 0) record.gone[0] = sim.time();
 }
 
-void Gauges::sample_points(const Simulation& sim, std::size_t g) {
-  const GaugeOptions& gauge = scene_.gauges[g];
+template <class Weight, class Value>
+void Gauges::sample_body(const Simulation& sim, std::size_t g, const Weight& weight,
+                         const Value& value) {
   Record& record = records_[g];
-  const Body& body = body_of(sim, gauge);
-  const int x = body.slot(field::Position::info), m = body.slot(field::Mass::info),
-            id = body.slot(field::Id::info);
-  const std::size_t fields = record.fields.size(), places = gauge.at.size();
-  std::vector<double> sum(places * fields, 0.0), weight(places, 0.0);
-  for_points(sim, gauge, [&](int s, int i) {
+  const std::size_t fields = record.fields.size(), places = scene_.gauges[g].at.size();
+  std::vector<double> sum(places * fields, 0.0), all(places, 0.0);
+  for_points(sim, scene_.gauges[g], [&](int s, int i) {
     for (std::size_t k = 0; k < places; ++k) {
-      const double w = gauge.fixed ? sim.value(s, i, m) * hat(sim, x, s, i, gauge.at[k])
-                       : sim.value(s, i, id) == record.ids[k] ? 1
-                                                              : 0;
+      const double w = weight(k, s, i);
       if (!(w > 0)) continue;
-      weight[k] += w;
-      for (std::size_t f = 0; f < fields; ++f)
-        sum[k * fields + f] += w * value_at(sim, record.fields[f], s, i);
+      all[k] += w;
+      for (std::size_t f = 0; f < fields; ++f) sum[k * fields + f] += w * value(k, f, s, i);
     }
   });
   for (std::size_t k = 0; k < places; ++k) {
-    if (!(weight[k] > 0) && record.gone[k] < 0) record.gone[k] = sim.time();
-    for (std::size_t f = 0; f < fields; ++f)
-      record.values[k * fields + f].push_back(weight[k] > 0 ? sum[k * fields + f] / weight[k]
-                                                            : kNothing);
+    if (!(all[k] > 0) && record.gone[k] < 0) record.gone[k] = sim.time();
+    for (std::size_t f = 0; f < fields; ++f) {
+      const double by = record.fields[f].is_sum() ? 1 : all[k];
+      record.values[k * fields + f].push_back(all[k] > 0 ? sum[k * fields + f] / by : kNothing);
+    }
   }
+}
+
+void Gauges::sample_points(const Simulation& sim, std::size_t g) {
+  const GaugeOptions& gauge = scene_.gauges[g];
+  const Record& record = records_[g];
+  const Body& body = body_of(sim, gauge);
+  const int x = body.slot(field::Position::info), m = body.slot(field::Mass::info),
+            id = body.slot(field::Id::info);
+  const auto weight = [&](std::size_t k, int s, int i) {
+    if (gauge.fixed) return sim.value(s, i, m) * hat(sim, x, s, i, gauge.at[k]);
+    return sim.value(s, i, id) == record.ids[k] ? 1.0 : 0.0;
+  };
+  sample_body(sim, g, weight, [&](std::size_t, std::size_t f, int s, int i) {
+    return value_at(sim, record.fields[f], s, i);
+  });
+}
+
+/// None where the material point that carries it is gone.
+std::vector<std::optional<SectionPlane>> Gauges::planes(const Simulation& sim, std::size_t g,
+                                                        const SectionReader& reader) const {
+  const GaugeOptions& gauge = scene_.gauges[g];
+  const Record& record = records_[g];
+  std::vector<std::optional<SectionPlane>> out(gauge.at.size());
+  for (std::size_t k = 0; k < out.size() && gauge.fixed; ++k)
+    out[k] = SectionPlane{projection(*gauge.normal, gauge.at[k]), 0};
+  if (gauge.fixed) return out;
+  const int id = body_of(sim, gauge).slot(field::Id::info);
+  for_points(sim, gauge, [&](int s, int i) {
+    for (std::size_t k = 0; k < out.size(); ++k)
+      if (sim.value(s, i, id) == record.ids[k]) {
+        out[k] = reader.through(s, i);
+        out[k]->at += record.offset[k];
+      }
+  });
+  return out;
+}
+
+/// At the start: how far they are from their material points.
+void Gauges::place_sections(const Simulation& sim, std::size_t g) {
+  const GaugeOptions& gauge = scene_.gauges[g];
+  records_[g].offset.assign(gauge.at.size(), 0.0);
+  const auto plane = planes(sim, g, {sim, body_of(sim, gauge), *gauge.normal});
+  for (std::size_t k = 0; k < gauge.at.size(); ++k)
+    if (plane[k]) records_[g].offset[k] = projection(*gauge.normal, gauge.at[k]) - plane[k]->at;
+}
+
+void Gauges::sample_sections(const Simulation& sim, std::size_t g) {
+  const Record& record = records_[g];
+  const SectionReader reader{sim, body_of(sim, scene_.gauges[g]), *scene_.gauges[g].normal};
+  const auto plane = planes(sim, g, reader);
+  sample_body(
+      sim, g,
+      [&](std::size_t k, int s, int i) { return plane[k] ? reader.area(*plane[k], s, i) : 0.0; },
+      [&](std::size_t k, std::size_t f, int s, int i) {
+        return record.fields[f].is_sum() ? reader.value(*plane[k], record.fields[f], s, i)
+                                         : value_at(sim, record.fields[f], s, i);
+      });
 }
 
 void Gauges::sample(const Simulation& sim, std::size_t g) {
@@ -124,6 +182,8 @@ void Gauges::sample(const Simulation& sim, std::size_t g) {
   record.next = (std::floor(sim.time() / gauge.every * (1 + 1e-12)) + 1) * gauge.every;
   if (gauge.body < 0)
     sample_measures(sim, g);
+  else if (gauge.normal)
+    sample_sections(sim, g);
   else
     sample_points(sim, g);
 }

@@ -136,7 +136,7 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
   j["unit"] = Json::of(unit_of(m));
   j["kind"] = Json::of(info(m.kind).name);
   j["body"] = bodies_json(scene, m.selection.bodies);
-  if (m.by) j["by"] = Json::of(partner_name(scene, *m.by));
+  if (m.by.size() == 1) j["by"] = Json::of(partner_name(scene, m.by.front()));
   if (m.direction != Triple{}) j["direction"] = vector_json(scene.frame, m.direction);
   if (m.axis >= 0) j["axis"] = Json::of(std::string{axis_name(scene.frame, m.axis)});
   if (m.kind == MeasureKind::diameter) j["at"] = Json::of(m.at);
@@ -157,11 +157,25 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
   return j;
 }
 
+/// What each of all partners gave along the measure's direction so far [N s].
+Json impulses_json(const MeasureOptions& m, const Simulation& sim) {
+  const Triple n = direction_of(m);
+  Json j;
+  for (const Partner by : m.by) {
+    const Triple J = sim.impulse(m.selection.bodies, by);
+    j[partner_name(sim.scene(), by)] = Json::of(J[0] * n[0] + J[1] * n[1] + J[2] * n[2]);
+  }
+  return j;
+}
+
 }  // namespace
 
 MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure) {
   MeasureContext out = measure_context(sim, measure.selection.bodies);
-  if (measure.by) out.impulse = sim.impulse(measure.selection.bodies, *measure.by);
+  for (const Partner by : measure.by) {
+    const Triple more = sim.impulse(measure.selection.bodies, by);
+    for (std::size_t a = 0; a < 3; ++a) out.impulse[a] += more[a];
+  }
   return out;
 }
 
@@ -279,6 +293,10 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     const MeasureOptions& m = scene.measures[i];
     Json& measure = measures[m.name] = measure_json(m, scene, start_[i], series_[i], now[i]);
+    if (m.by.size() > 1) {
+      measure["by"] = Json::of("all");
+      measure["impulses"] = impulses_json(m, sim);
+    }
     if (!sim.broken() &&
         rarefied(m, selections_.points(sim, m.selection), measure_context(sim, m.selection.bodies)))
       measure["rarefied"] = Json::of(true);

@@ -144,14 +144,14 @@ std::unique_ptr<NodeLoads> Simulation::make_loads() {
 }
 
 void Simulation::watch_impulses() {
-  for (const MeasureOptions& m : scene_.measures) {
-    if (!m.by) continue;
-    for (const FieldId on : fields_of(m.selection.bodies)) impulses_.watch(on, *m.by);
-    if (m.by->kind == Partner::Kind::body)
-      contact_.note_impulses();
-    else
-      boundary_.note_impulses();
-  }
+  for (const MeasureOptions& m : scene_.measures)
+    for (const Partner by : m.by) {
+      for (const FieldId on : fields_of(m.selection.bodies)) impulses_.watch(on, by);
+      if (by.kind == Partner::Kind::body)
+        contact_.note_impulses();
+      else
+        boundary_.note_impulses();
+    }
 }
 
 void Simulation::place_rigid_bodies() {

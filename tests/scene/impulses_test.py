@@ -44,6 +44,9 @@ measures:
   plate_wall_z: {kind: impulse, body: plate, by: z_min, axis: z}
   block_wall_z: {kind: impulse, body: block, by: z_min, axis: z}
   slant: {kind: impulse, body: block, by: plate, axis: [3, 4]}
+  on_block_x: {kind: impulse, body: block, by: all, axis: x}
+  on_block_z: {kind: impulse, body: block, by: all, axis: z}
+  on_both_z: {kind: impulse, body: [block, plate], by: all, axis: z}
   block_px: {kind: momentum, body: block, axis: x}
   block_pz: {kind: momentum, body: block, axis: z}
   plate_px: {kind: momentum, body: plate, axis: x}
@@ -52,6 +55,25 @@ measures:
   touch: {kind: force, body: block, by: plate, axis: z}
   peak: {kind: force, body: plate, by: block, axis: z, keep: smallest}
 gauges: {pair: {measures: [touch, block_plate_x, block_pz_rate], every: 0.7 us, filter: {moving_mean: 3 us}}}
+"""
+
+# A corner strikes a wall, and some points go a hair beyond it and are put back: what that gives them is the wall's.
+CORNER = """
+frame: plane_strain
+grid: {cell: 1 mm, box: {min: [-20 mm, 0], max: [30 mm, 40 mm]}, boundary: {z_min: {wall: {friction: 0.2}}}}
+time: {end: 12 us, energy_error: off}
+output: {frames: 0}
+materials:
+  soft: {density: 2700, shear_modulus: 26 GPa, strength: {von_mises: {Y: 200 MPa, H: 100 MPa}},
+         eos: {mie_gruneisen_shock: {c0: 5240 m/s, S1: 1.4, gamma0: 2}}}
+bodies:
+  block: {material: soft, shape: {rotate: {axis: y, angle: 40 degree, shape: {box: {min: [-5 mm, -1, 8 mm], max: [5 mm, 1, 14 mm]}}}},
+          velocity: [400 m/s, -800 m/s]}
+measures:
+  px: {kind: momentum, body: block, axis: x}
+  pz: {kind: momentum, body: block, axis: z}
+  Jx: {kind: impulse, body: block, by: z_min, axis: x}
+  Jz: {kind: impulse, body: block, by: z_min, axis: z}
 """
 
 OWNERS = {
@@ -102,6 +124,9 @@ def pairs(rows, what):
         "plate along x": change(rows, "plate_px") + rows["block_plate_x"] + rows["ball_plate_x"] - rows["plate_wall_x"],
         "plate along z": change(rows, "plate_pz") + rows["block_plate_z"] + rows["ball_plate_z"] - rows["plate_wall_z"],
         "ball along z": change(rows, "ball_pz") - rows["ball_plate_z"] + rows["block_ball_z"],
+        "block by all along x": change(rows, "block_px") - rows["on_block_x"],
+        "block by all along z": change(rows, "block_pz") - rows["on_block_z"],
+        "two bodies by all others": change(rows, "block_pz") + change(rows, "plate_pz") - rows["on_both_z"],
         "action and reaction": rows["plate_block_z"] + rows["block_plate_z"],
         "a slanted axis": rows["slant"] - 0.6 * rows["block_plate_x"] - 0.8 * rows["block_plate_z"],
     }
@@ -109,6 +134,40 @@ def pairs(rows, what):
         check(max(abs(gap)) < 1e-12 * scale, f"{what}, {name}: impulses make up the momentum", f"{max(abs(gap)) / scale:.1e}")
     for name in ("block_plate_x", "block_plate_z", "block_ram_z", "ball_plate_z", "plate_wall_x"):
         check(abs(rows[name][-1]) > 1e-3 * scale, f"{what}: {name} is not nothing", rows[name][-1] / scale)
+
+
+def table_of_pairs(rows):
+    told = summary("one")["measures"]["on_block_z"]
+    names = {"plate": "plate", "ball": "ball", "ram": "ram", "z_min": "wall"}
+    check(told["by"] == "all" and list(told["impulses"]) == list(names), "by: all names every partner", told)
+    for name, column in names.items():
+        check(told["impulses"][name] == rows[f"block_{column}_z"][-1], f"the table has what {name} gave", told["impulses"][name])
+
+
+def rigid_first(folder):
+    """The rigid bodies before those they push: the pair is noted the other way round."""
+    lines = BODIES.splitlines(True)
+    rigid = [line for line in lines if line.startswith(("  ball:", "  ram:"))]
+    rest = [line for line in lines if line not in rigid]
+    at = rest.index("bodies:\n") + 1
+    scene = pathlib.Path(folder, "rigid.yaml")
+    scene.write_text("".join(rest[:at] + rigid + rest[at:]), encoding="utf-8")
+    done = run("rigid", scene=scene)
+    if check(done.returncode == 0, "rigid bodies may come first", done.text[-400:]):
+        pairs(history("rigid"), "rigid first")
+
+
+def put_back(folder):
+    scene = pathlib.Path(folder, "corner.yaml")
+    scene.write_text(CORNER, encoding="utf-8")
+    done = run("corner", scene=scene)
+    if not check(done.returncode == 0, "a corner strikes a wall", done.text[-400:]):
+        return
+    rows, events = history("corner"), summary("corner")["audit"]["events"]
+    check(events["reflections"] > 0 and events["removed_points"] == 0, "some points are put back", events["reflections"])
+    for axis in "xz":
+        gap = max(abs(change(rows, f"p{axis}") - rows[f"J{axis}"])) / abs(rows["pz"][0])
+        check(gap < 1e-12 and abs(rows[f"J{axis}"][-1]) > 1e-2 * abs(rows["pz"][0]), f"along {axis} that is in the wall's impulse", f"{gap:.1e}")
 
 
 def owners(name):
@@ -128,6 +187,9 @@ def main():
         done = run("one", scene=scene)
         check(done.returncode == 0, "three bodies and a ram run", done.text[-400:])
         pairs(history("one"), "usl")
+        table_of_pairs(history("one"))
+        rigid_first(folder)
+        put_back(folder)
         owners("one")
         check(summary("one")["measures"]["peak"]["value"] < 0 and summary("one")["measures"]["slant"]["by"] == "plate", "the peak force is told")
         run("two", scene=scene, threads=2)
@@ -151,6 +213,7 @@ def main():
                 owners(name)
         for setting, part in (("measures.slant.by=x_min", "pushes nobody"), ("measures.slant.by=block", "gives itself"),
                               ("measures.slant.axis=[0, 0]", "needs a length"), ("measures.slant.by=plat", "pushes nobody"),
+                              ("measures.more={kind: impulse, body: ball, by: all}", "axis"),
                               ("contact=none", "known are bodies where"), ("measures.gauges={kind: mass, body: block}", "under this name")):
             done = krater("check", scene, "--set", setting)
             check(done.returncode == 2 and part in done.text and "measures." in done.text, f"{setting} is refused", done.text[:300])

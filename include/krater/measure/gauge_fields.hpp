@@ -18,15 +18,28 @@
 namespace krater {
 
 struct GaugeField {
-  enum class Kind { scalar, speed, stress, von_mises, strain, measure };
+  enum class Kind {
+    scalar,
+    speed,
+    stress,
+    von_mises,
+    strain,
+    measure,
+    area,  ///< from here on of a section (measure/gauge_section.hpp)
+    force,
+    mass_flux,
+    momentum_flux
+  };
   /// What the record's samples become: the value itself, its rate, or the fall of its size.
   enum class Change { none, rate, fall };
   Kind kind = Kind::scalar;
   int slot = -1;       ///< of the field's first component; of a measure: its number
   int pressure = -1;   ///< slot to take off, -1: none
-  int component = -1;  ///< of strain
+  int component = -1;  ///< of strain; of what passes a section: its grid axis
   std::string unit = "1";
   Change change = Change::none;
+  /// Summed over a section, where others are a mean.
+  bool is_sum() const { return kind >= Kind::area; }
 };
 
 /// Throws InputError: the points of the gauge's body carry no such field.

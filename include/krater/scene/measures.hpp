@@ -88,18 +88,18 @@ struct MeasureOptions {
   std::string name, where;
   MeasureKind kind = MeasureKind::extent;
   MeasureSelection selection;
-  int axis = -1;              ///< grid axis; of kinds with a face: its normal
-  Triple direction{};         ///< where axis is -1: a unit vector along the grid axes
-  double at = 0;              ///< diameter: position on the last axis [m] ...
-  bool at_from_end = false;   ///< ... counted from the body's lower end at the time of measuring
-  std::string field;          ///< mean, maximum, minimum: field name
-  int target = -1;            ///< penetration_depth: body with the face
-  int side = -1;              ///< of the face: 0 lower, 1 upper
-  std::optional<Partner> by;  ///< impulse, force: who pushes
-  double level = 0;           ///< crater_diameter: below the original face [m]; largest_diameter:
-                              ///< heights up to this from the body's lower end, 0: all
-  double mass_share = 1;      ///< debris_extent: that it holds; maximum, minimum: beyond the value
-  Keep keep = Keep::now;      ///< value: at the time of measuring, or the extreme so far
+  int axis = -1;             ///< grid axis; of kinds with a face: its normal
+  Triple direction{};        ///< where axis is -1: a unit vector along the grid axes
+  double at = 0;             ///< diameter: position on the last axis [m] ...
+  bool at_from_end = false;  ///< ... counted from the body's lower end at the time of measuring
+  std::string field;         ///< mean, maximum, minimum: field name
+  int target = -1;           ///< penetration_depth: body with the face
+  int side = -1;             ///< of the face: 0 lower, 1 upper
+  std::vector<Partner> by;   ///< impulse, force: who pushes
+  double level = 0;          ///< crater_diameter: below the original face [m]; largest_diameter:
+                             ///< heights up to this from the body's lower end, 0: all
+  double mass_share = 1;     ///< debris_extent: that it holds; maximum, minimum: beyond the value
+  Keep keep = Keep::now;     ///< value: at the time of measuring, or the extreme so far
   bool in_history = true;
   std::optional<double> reference;  ///< SI
   std::string reference_source;

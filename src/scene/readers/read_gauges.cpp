@@ -13,8 +13,9 @@ constexpr double kSamples = 1000;  // over the run, unless told otherwise
 /// `at: [0, 3 mm]`, or a line `from`, `to`, `count`.
 void read_places(Block& block, GaugeOptions& gauge, Reading& reading) {
   const Node *at = block.find("at"), *from = block.find("from"), *to = block.find("to");
+  const bool line = from || to || block.find("count");
   const int count = block.integer("count", 2, 1000, 2);
-  if (!at == !(from && to))
+  if (at ? line : !(from && to))
     return block.fail("expected at: [r or x, z], or a line from: [...], to: [...], count: 5");
   if (at) {
     if (const auto place = read_place(*at, reading)) gauge.at.push_back(*place);
@@ -113,6 +114,10 @@ void read_points(Block& block, GaugeOptions& gauge, Reading& reading) {
     block.record("body", *body);
   }
   gauge.fixed = block.flag("fixed", false);
+  if (const Node* section = block.find("section")) {
+    gauge.normal = read_direction(*section, reading);
+    block.record("section", *section);
+  }
   read_places(block, gauge, reading);
   read_fields(block, gauge, reading);
 }

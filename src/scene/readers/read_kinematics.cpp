@@ -108,7 +108,7 @@ void check_alone(const Node& place, Reading& reading) {
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
   if (!scene.detonators.empty()) fail("is not lit by detonators yet; use kinematics: mpm");
   for (const MeasureOptions& measure : scene.measures)
-    if (measure.by)
+    if (!measure.by.empty())
       fail("has no measures of what one partner did to a body (" + measure.name +
            "): wall_impulse of the history is that of all sides");
   for (const auto& axis : scene.grid.boundary)

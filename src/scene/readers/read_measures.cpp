@@ -104,43 +104,63 @@ void read_direction(Block& block, MeasureOptions& measure, Reading& reading) {
   block.record("axis", vector_node(reading.scene.frame, measure.direction));
 }
 
-/// `by: plate` or `by: z_min`: a body in contact, or a side of the domain that pushes.
-void read_partner(Block& block, MeasureOptions& measure, Reading& reading) {
-  const Scene& scene = reading.scene;
-  std::vector<std::string> known;
+struct NamedPartner {
+  std::string name;
+  Partner partner;
+};
+
+/// Bodies that meet others, and sides of the domain that push.
+std::vector<NamedPartner> known_partners(const Scene& scene) {
+  std::vector<NamedPartner> out;
   for (std::size_t b = 0; b < scene.bodies.size() && scene.contact.active; ++b)
-    known.push_back(scene.bodies[b].name);
+    out.push_back({scene.bodies[b].name, {Partner::Kind::body, static_cast<int>(b)}});
   for (int axis = 0; axis < dimension(scene.frame); ++axis)
     for (int side = 0; side < 2; ++side)
       if (scene.grid.boundary[static_cast<std::size_t>(axis)][static_cast<std::size_t>(side)]
               .pushes())
-        known.push_back(side_name(scene.frame, axis, side));
-  const Node* node = block.require("by", "who pushes: a body in contact, or a wall or driven side");
+        out.push_back({side_name(scene.frame, axis, side), Partner::side(axis, side)});
+  return out;
+}
+
+/// Says why a side's impulse on the measure's bodies is not known.
+void check_side(const Node& node, const MeasureOptions& measure, Block& block, const Scene& scene) {
+  if (!scene.contact.active && measure.selection.bodies.size() != scene.bodies.size())
+    block.fail(node,
+               "without contact: all bodies share one velocity field, and what a side gives "
+               "them cannot be told apart: list all of them as body");
+  if (scene.method.reference != Reference::current)
+    block.fail(node,
+               "on a fixed reference configuration walls push points one by one, and their "
+               "impulse is not told apart: use wall_impulse of the history");
+}
+
+/// `by: plate` or `by: z_min`: a body in contact, or a side of the domain that pushes; `by: all` of
+/// them.
+void read_partner(Block& block, MeasureOptions& measure, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const std::vector<NamedPartner> known = known_partners(scene);
+  const Node* node =
+      block.require("by", "who pushes: a body in contact, a wall or driven side, or all");
   const std::optional<std::string> word = node ? read_word(*node, reading.problems) : std::nullopt;
   if (!word) return;
-  if (std::find(known.begin(), known.end(), *word) == known.end())
+  const std::vector<int>& on = measure.selection.bodies;
+  const auto itself = [&](Partner p) {
+    return p.kind == Partner::Kind::body && std::find(on.begin(), on.end(), p.number) != on.end();
+  };
+  std::vector<std::string> names;
+  for (const NamedPartner& k : known) {
+    names.push_back(k.name);
+    if (k.name == *word || (*word == "all" && !itself(k.partner))) measure.by.push_back(k.partner);
+  }
+  if (measure.by.empty())
     return block.fail(*node, quote(*word) +
                                  " pushes nobody here: known are bodies where the scene "
                                  "has contact:, and sides that are a wall or driven (" +
-                                 (known.empty() ? "none" : join(known)) + ")");
-  const auto [axis, side] = side_of(scene.frame, *word);
-  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                 [&](const BodyOptions& b) { return b.name == *word; });
-  const int number = static_cast<int>(body - scene.bodies.begin());
-  const bool is_body = scene.contact.active && body != scene.bodies.end();
-  measure.by = is_body ? Partner{Partner::Kind::body, number} : Partner::side(axis, side);
+                                 (known.empty() ? "none" : join(names)) + ")");
   block.record("by", string_node(*word));
-  const std::vector<int>& on = measure.selection.bodies;
-  if (is_body && std::find(on.begin(), on.end(), number) != on.end())
+  if (itself(measure.by.front()))
     block.fail(*node, "a body gives itself no impulse: by must be another one");
-  if (!is_body && !scene.contact.active && on.size() != scene.bodies.size())
-    block.fail(*node,
-               "without contact: all bodies share one velocity field, and what a side gives "
-               "them cannot be told apart: list all of them as body");
-  if (!is_body && scene.method.reference != Reference::current)
-    block.fail(*node,
-               "on a fixed reference configuration walls push points one by one, and their "
-               "impulse is not told apart: use wall_impulse of the history");
+  if (measure.by.back().kind == Partner::Kind::side) check_side(*node, measure, block, scene);
 }
 
 /// `face: z_max`: the face whose outward normal is +z.

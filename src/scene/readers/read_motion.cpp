@@ -56,7 +56,8 @@ std::optional<Triple> axis_of_word(std::string_view word) {
   return out;
 }
 
-/// `towards: [0, -1]` or `-z`: a unit vector along the grid axes.
+}  // namespace
+
 std::optional<Triple> read_direction(const Node& node, Reading& reading) {
   std::optional<Triple> along;
   if (node.kind == Node::Kind::scalar) {
@@ -88,6 +89,8 @@ std::optional<Triple> read_direction(const Node& node, Reading& reading) {
   for (double& x : *along) x /= size;
   return along;
 }
+
+namespace {
 
 /// `angle: 30 deg`, along the grid axes; an axis of revolution leaves only up and down.
 std::optional<Triple> oblique(double angle, const Node& node, Reading& reading) {

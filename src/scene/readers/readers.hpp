@@ -90,6 +90,8 @@ struct ReadField {
 };
 std::optional<ReadField> read_field(const Node& node, const char* unit, Reading& reading);
 
+/// `[0, -1]` or `-z`: a unit vector along the grid axes.
+std::optional<Triple> read_direction(const Node& node, Reading& reading);
 /// `{speed: 830 m/s, towards: [0, -1]}` or `{speed: 830 m/s, angle: 30 degree}`.
 std::optional<Triple> read_speed(const Node& node, Reading& reading);
 /// A velocity by components, numbers or expressions, or by its speed and direction.
