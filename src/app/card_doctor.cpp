@@ -46,15 +46,6 @@ constexpr double kSameDensity = 0.03, kSameModulus = 0.05, kSameHeat = 0.2, kSam
 
 bool near(double a, double b, double tolerance) { return std::fabs(a - b) <= tolerance * b; }
 
-/// A parameter of a law by its key; empty if the law has no such parameter.
-std::optional<double> parameter(const std::optional<LawChoice>& choice, const char* key) {
-  if (!choice) return std::nullopt;
-  const LawInfo& law = catalogue()[static_cast<std::size_t>(choice->law)];
-  for (std::size_t i = 0; i < law.parameters.size(); ++i)
-    if (std::strcmp(law.parameters[i].key, key) == 0) return choice->values[i];
-  return std::nullopt;
-}
-
 void check_moduli(const MaterialOptions& m, std::vector<std::string>& doubts) {
   const double K = bulk_modulus_at_rest(m);
   if (!(K > 0)) return;
@@ -157,6 +148,14 @@ void check_fracture_strain(const MaterialOptions& m, std::vector<std::string>& d
 }
 
 }  // namespace
+
+std::optional<double> parameter(const std::optional<LawChoice>& choice, const char* key) {
+  if (!choice) return std::nullopt;
+  const LawInfo& law = catalogue()[static_cast<std::size_t>(choice->law)];
+  for (std::size_t i = 0; i < law.parameters.size(); ++i)
+    if (std::strcmp(law.parameters[i].key, key) == 0) return choice->values[i];
+  return std::nullopt;
+}
 
 double bulk_modulus_at_rest(const MaterialOptions& m) {
   const std::optional<LawChoice>& law = m.eos ? m.eos : m.model;

@@ -7,6 +7,7 @@
 
 #include "krater/app/card_doctor.hpp"
 #include "krater/app/command_line.hpp"
+#include "krater/app/effects.hpp"
 #include "krater/app/field_doubts.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
@@ -128,70 +129,12 @@ void print_body(const Simulation& sim, const Scene& scene, int index, int coarse
   fmt::print("\n");
 }
 
-/// The largest speed at which a body meets another, its mirror image in a symmetry plane, or a
-/// moving plane, by the bodies' mean velocities; at least the speed of the fastest (walls, still
-/// targets).
-double closing_speed(const Simulation& sim, double fastest) {
-  double closing = fastest;
-  std::vector<Triple> velocities(sim.bodies().size());
-  for (std::size_t body = 0; body < velocities.size(); ++body) {
-    const Totals t = sim.totals(static_cast<int>(body));
-    for (std::size_t k = 0; k < 3; ++k)
-      velocities[body][k] = t.mass > 0 ? t.momentum[k] / t.mass : 0;
-  }
-  for (std::size_t a = 0; a < sim.bodies().size(); ++a) {
-    const Triple& v = velocities[a];
-    for (std::size_t b = 0; b < a; ++b) {
-      const Triple& w = velocities[b];
-      closing = std::max(closing, std::hypot(v[0] - w[0], v[1] - w[1], v[2] - w[2]));
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-      for (const Boundary& plane : sim.scene().grid.boundary[k]) {
-        if (plane.kind == BoundaryKind::symmetry) closing = std::max(closing, 2 * std::fabs(v[k]));
-        if (plane.kind == BoundaryKind::velocity)
-          closing = std::max(closing, std::fabs(v[k] - plane.velocity[k]));
-      }
-  }
-  return closing;
-}
-
-/// Some body of this material can deform.
-bool deforms(const Scene& scene, const MaterialOptions& material) {
-  for (const BodyOptions& body : scene.bodies)
-    if (&scene.materials[static_cast<std::size_t>(body.material)] == &material && !body.rigid())
-      return true;
-  return false;
-}
-
-/// Impact regime by velocity and stress (BUSH, after Zukas): what a scene of this speed needs.
-void print_advice(const Scene& scene, double fastest, double closing) {
-  for (const MaterialOptions& m : scene.materials) {
-    if (!deforms(scene, m)) continue;
-    if (fastest > 500 && m.eos && m.eos->name == "linear")
-      fmt::print(
-          "advice: {}: {:.0f} m/s with a linear equation of state; shocks need "
-          "mie_gruneisen_shock\n",
-          m.name, fastest);
-    if (closing > 300 && m.strength && m.strength->name == "elastic")
-      fmt::print(
-          "advice: {}: elastic never yields and is meant for small strains; {:.0f} m/s calls for a "
-          "yield law\n",
-          m.name, closing);
-    if (fastest > 50 && !m.viscosity)
-      fmt::print("advice: {}: no viscosity block; shocks will ring (add viscosity: {{}})\n",
-                 m.name);
-    if (fastest > 100 && m.eos && !m.spall_strength && !m.damage)
-      fmt::print("advice: {}: neither spall_strength nor damage; cold tension has no other limit\n",
-                 m.name);
-    if (fastest > 100 && m.strength && m.strength->name == "johnson_cook" && !m.heating)
-      fmt::print("advice: {}: johnson_cook without heating: no thermal softening\n", m.name);
-    if (closing > 2000 && m.heating && m.heating->name == "plastic_work")
-      fmt::print(
-          "advice: {}: impact at {:.0f} m/s: plastic_work misses the heat of the shock "
-          "(src/THEORY.md 8); "
-          "heating: {{energy: {{c_v: ...}}}} sees it\n",
-          m.name, closing);
-  }
+/// Effects, what they cost and do, and what the speed of the impact says of them.
+void print_effects(const Scene& scene, const Simulation& sim) {
+  const EffectReport report = report_effects(scene, EffectCosts{scene, sim.isa_level()}, "");
+  for (const std::string& line : effect_table(scene, report)) fmt::print("{}\n", line);
+  fmt::print("  (ns are told by krater run, influence by krater study of kind ablation)\n");
+  for (const std::string& sentence : report.sentences) fmt::print("advice: {}\n", sentence);
 }
 
 /// A results folder with the start as its only frame, for a look at the set-up.
@@ -284,16 +227,12 @@ void print_check(const RunOptions& options) {
         "note: {} points are not made to be looked at: bodies are filled with cells {} times as "
         "long\n",
         count_text(cost.points), sample.coarser);
-  double fastest = 0;
-  for (std::size_t b = 0; b < sim.bodies().size(); ++b) {
+  for (std::size_t b = 0; b < sim.bodies().size(); ++b)
     print_body(sim, scene, static_cast<int>(b), sample.coarser);
-    const Totals t = sim.totals(static_cast<int>(b));
-    fastest = std::max(fastest, t.mass > 0 ? std::sqrt(2 * t.kinetic / t.mass) : 0);
-  }
   print_contact(scene);
   print_estimate(cost);
   if (!options.output.empty()) write_start(sim, options.output);
-  print_advice(scene, fastest, closing_speed(sim, fastest));
+  print_effects(scene, sim);
   print_cards(scene);
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);

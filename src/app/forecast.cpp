@@ -64,11 +64,11 @@ void count_steps(const Scene& scene, double rate, Forecast& out) {
 
 }  // namespace
 
-double greatest_speed(const Scene& scene, const BodyOptions& body) {
-  if (!body.velocity) return 0;
+std::vector<Triple> sampled_velocities(const Scene& scene, const BodyOptions& body) {
+  if (!body.velocity) return {Triple{}};
+  std::vector<Triple> out;
   const int dim = dimension(scene.frame);
   const Box box = intersection(body.solid->extent(scene.frame), domain_box(scene), dim);
-  double fastest = 0;
   for (int n = 0; n < (dim == 3 ? 27 : 9); ++n) {
     Triple x{};
     int digits = n;
@@ -76,7 +76,14 @@ double greatest_speed(const Scene& scene, const BodyOptions& body) {
       x[a] = box.min[a] + (0.01 + 0.49 * (digits % 3)) * (box.max[a] - box.min[a]);
       digits /= 3;
     }
-    const Triple v = (*body.velocity)(x, x, 0);
+    out.push_back((*body.velocity)(x, x, 0));
+  }
+  return out;
+}
+
+double greatest_speed(const Scene& scene, const BodyOptions& body) {
+  double fastest = 0;
+  for (const Triple& v : sampled_velocities(scene, body)) {
     const double speed = std::hypot(v[0], v[1], v[2]);
     if (std::isfinite(speed)) fastest = std::max(fastest, speed);
   }

@@ -4,6 +4,10 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
+#include "krater/core/parallel.hpp"
+
 namespace krater {
 
 std::int64_t peak_resident_bytes() {
@@ -13,6 +17,23 @@ std::int64_t peak_resident_bytes() {
     if (key == "VmHWM:" && status >> kilobytes) return 1024 * kilobytes;
   }
   return 0;
+}
+
+Json machine_json(const Simulation& sim, double seconds, double point_steps) {
+  Json out;
+  char host[256] = {};
+  gethostname(host, sizeof(host) - 1);
+  out["host"] = Json::of(std::string{host});
+  out["threads"] = Json::of(static_cast<std::int64_t>(threads()));
+  out["instruction_set"] = Json::of(std::string{name_of(sim.isa_level())});
+  out["bytes_per_point"] = Json::of(sim.bytes_per_point());
+  out["peak_resident_bytes"] = Json::of(peak_resident_bytes());
+  out["wall_seconds"] = Json::of(seconds);
+  Json& phases = out["seconds"];
+  for (std::size_t i = 0; i < phase_names.size(); ++i)
+    phases[phase_names[i]] = Json::of(sim.stepper().seconds(static_cast<Phase>(i)));
+  out["point_steps_per_second"] = Json::of(seconds > 0 ? point_steps / seconds : 0.0);
+  return out;
 }
 
 }  // namespace krater

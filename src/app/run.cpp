@@ -6,10 +6,10 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "app/continuation.hpp"
 #include "app/signals.hpp"
+#include "krater/app/effects.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
 #include "krater/app/known_error.hpp"
@@ -44,6 +44,7 @@ class Runner {
         measurements_{sim_},
         outcomes_{sim_, history_titles()},
         gauges_{sim_, measurements_},
+        costs_{scene_, sim_.isa_level()},
         results_{options.output.empty() ? default_output(options.scene) : options.output,
                  !options.restart.empty()} {}
 
@@ -67,6 +68,10 @@ class Runner {
   void watch_time_step();
   int fail(const std::string& message, Progress& progress);
   Json summary(const std::string& status, double seconds);
+  double point_steps() const {
+    return static_cast<double>(sim_.steps() - first_step_) *
+           static_cast<double>(sim_.point_count());
+  }
   int finish(const std::string& status, const std::string& message, int code,
              const Progress& progress);
 
@@ -76,6 +81,7 @@ class Runner {
   Measurements measurements_;
   Outcomes outcomes_;
   Gauges gauges_;
+  EffectCosts costs_;
   ResultsFolder results_;
   FolderLock lock_;
   int frame_ = 0;
@@ -230,6 +236,7 @@ int Runner::go() {
         return finish("interrupted", message, kInterrupted, progress);
       }
       sim_.step(frames.next());
+      costs_.look(sim_);
       write_due(frames, history);
       if (scene_.output.checkpoint_wall > 0 &&
           progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall) {
@@ -325,21 +332,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   limiters["2"] = Json::of("volume change");
   // Machine and clock: everything above is the same for any number of threads, everything below is
   // not.
-  Json& machine = j["machine"];
-  char host[256] = {};
-  gethostname(host, sizeof(host) - 1);
-  machine["host"] = Json::of(std::string{host});
-  machine["threads"] = Json::of(static_cast<std::int64_t>(threads()));
-  machine["instruction_set"] = Json::of(std::string{name_of(sim_.isa_level())});
-  machine["bytes_per_point"] = Json::of(sim_.bytes_per_point());
-  machine["peak_resident_bytes"] = Json::of(peak_resident_bytes());
-  machine["wall_seconds"] = Json::of(seconds);
-  const double work =
-      static_cast<double>(sim_.steps() - first_step_) * static_cast<double>(sim_.point_count());
-  Json& phases = machine["seconds"];
-  for (std::size_t i = 0; i < phase_names.size(); ++i)
-    phases[phase_names[i]] = Json::of(sim_.stepper().seconds(static_cast<Phase>(i)));
-  machine["point_steps_per_second"] = Json::of(seconds > 0 ? work / seconds : 0.0);
+  j["machine"] = machine_json(sim_, seconds, point_steps());
   Json& program = j["program"];
   program["version"] = Json::of(v.program);
   program["revision"] = Json::of(v.revision);
@@ -354,13 +347,19 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (!message.empty()) s["message"] = Json::of(message);
   const std::vector<std::string> errors =
       add_known_errors({options_.scene, results_.path(), scene_.grid.cell, progress.seconds()}, s);
+  const EffectReport report = report_run(sim_, costs_, results_.path(), point_steps());
+  s["effects"] = effects_json(scene_, report);
+  s["machine"]["ns_per_point_step"] = effect_times_json(scene_, report);
   results_.write_summary(s);
   gauges_.write(results_);
   results_.flush();
   for (const std::string& line : outcomes_.sentences()) tell(line);
   for (const std::string& line : gauges_.sentences()) tell(line);
-  if (code == kDone)
+  if (code == kDone) {
+    for (const std::string& line : effect_table(scene_, report)) tell(line);
+    for (const std::string& line : report.sentences) tell("advice: " + line);
     for (const std::string& line : errors) tell(line);
+  }
   if (outcomes_.answered())
     tell(fmt::format("stopped at {:.4g} s of {:.4g} s: {}", sim_.time(), scene_.time.end,
                      outcomes_.answer()));

@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -22,6 +23,9 @@ from scene_support import KRATER, ROOT, Folder, check, command, environment, fin
 os.environ["KRATER"] = KRATER
 sys.path.insert(0, str(ROOT / "tools" / "krater_study"))
 import command as study_command  # noqa: E402
+from members import Member, Row  # noqa: E402
+from refinement import Convergence  # noqa: E402
+from search import BallisticLimit  # noqa: E402
 
 SCENE = """
 frame: plane_strain
@@ -154,14 +158,62 @@ def budget():
     check(done.returncode == 2 and "below one run" in done.text, "a budget below one run is refused", done.text)
 
 
+def null_in_some():
+    """A measure that some members have not: left out of what is said of it, and that is said; an error is never made of
+    it."""
+    some = "vary: {bodies.plate.velocity: [[0, -1 km/s], [0, 3 km/s]]}"
+    done = study("some", f"study: sweep\nscene: plate.yaml\nmeasures: [velocity, gone]\n{some}\n")
+    values = [row["gone"] for row in answer("some")["members"]]
+    check(done.returncode == 0 and values[0] is None and values[1] > 0, "the body is there in one of two", values)
+    check(re.search(r"gone has no value in 1 of 2 members \(velocity=0-1kms\): they are left out", done.stdout),
+          "what is left out is said", done.stdout)
+    rows = [row_of_a_run(cell, value) for cell, value in ((0.004, 1.0), (0.002, None), (0.001, 1.1))]
+    kind = Convergence.__new__(Convergence)
+    kind.study = types.SimpleNamespace(measures=["gone"], truth={})
+    said = kind.answer(rows)
+    check(said.data["measures"]["gone"]["uncertainty"] is None and
+          any("no error can be said" in line and "2 mm" in line for line in said.sentences),
+          "a refinement with a gap says no error, and which cell has no value", said.sentences)
+
+
+def row_of_a_run(cell, value):
+    """A member as it would lie on disk."""
+    cost = {"core_seconds": 1 / cell, "point_steps": 1 / cell**3, "stepping_seconds": 1 / cell}
+    measures = {"gone": {"value": value, "unit": "m"}}
+    return Row(Member(f"cell={cell}", [], {}), "done", "", {"cell": cell, "measures": measures}, cost)
+
+
+def fates():
+    """What each word of an outcome means for the limit; a wrong one would move it and nothing else would tell."""
+    def shot(speed, word, whole="moving"):
+        told = {"outcome": whole, "main_piece_outcome": word}
+        return Row(Member(f"{speed}", [], {"v": f"{speed} m/s"}), "done", "", {"outcomes": {"shot": told}})
+
+    kind = BallisticLimit.__new__(BallisticLimit)
+    kind.outcome, kind.path = "shot", "v"
+    for word, through in (("perforated", True), ("stopped", False), ("ricocheted", False), ("missed", None),
+                          ("moving", None)):
+        check(kind.perforated(shot(300, word)) is through, f"{word}: {through}")
+        check(kind.perforated(shot(300, None, word)) is through, f"{word} of the whole, where there is no main piece")
+    rows = [shot(100, "stopped"), shot(200, "stopped"), shot(400, "perforated"), shot(300, "perforated")]
+    check(kind.bracket(rows) == (200, 300), "fastest that was stopped, slowest that perforated", kind.bracket(rows))
+    check(kind.bracket([*rows, shot(350, "stopped")]) == (200, 300), "not one that was stopped above it")
+    check(kind.bracket([*rows, shot(250, "ricocheted")]) == (250, 300), "a ricochet did not perforate")
+    check(kind.bracket(rows[:2]) == (200, None) and kind.bracket(rows[2:]) == (None, 300), "one end alone is no bracket")
+
+
 def queue():
     write("queued.yaml", convergence())
     done = study("queued", "", "--list")
     lines = done.stdout.splitlines()
     check(done.returncode == 0 and len(lines) == 3 and all("krater run" in line for line in lines),
           "one command per member", done.text)
-    for line in lines[:2]:
-        subprocess.run(line, shell=True, check=True, capture_output=True)
+    if shutil.which("parallel"):
+        subprocess.run(["parallel", "-j", "1"], input="\n".join(lines[:2]), text=True, check=True, capture_output=True)
+    else:
+        print("skip  GNU parallel is not here (Debian: parallel); a shell runs the lines")
+        for line in lines[:2]:
+            subprocess.run(line, shell=True, check=True, capture_output=True)
     done = study("queued", "", "--collect")
     check(done.returncode == 4 and "1 members were not run" in done.stdout, "what is done is collected", done.text)
     subprocess.run(lines[2], shell=True, check=True, capture_output=True)
@@ -270,6 +322,10 @@ def examples():
         done = study(kind, text.replace(*change) if change else text, *words)
         check(done.returncode == 0 and os.path.exists(f"{kind}_study/study.html"), f"the example of {kind} runs",
               done.text[-600:])
+    lines = pathlib.Path("ablation_study/influence.tsv").read_text(encoding="utf-8").splitlines()
+    check(lines[0] == "# scene taylor_copper.yaml 0.0015239999999999999" and len(lines) == 5 and
+          re.fullmatch(r"materials.copper.heating\t[0-9.]+\t\w+\t(keep|could go)", lines[1]),
+          "an ablation leaves what krater check tells of each effect", lines)
 
 
 with Folder():
@@ -278,6 +334,8 @@ with Folder():
     files_of_a_study()
     resumed()
     failing_member()
+    null_in_some()
+    fates()
     budget()
     queue()
     bad_input()

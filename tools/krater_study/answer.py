@@ -63,6 +63,17 @@ def failed_sentences(rows):
     return lines + ([f"{left} members were not run: no time was left."] if left else [])
 
 
+def missing_sentences(rows, measures):
+    """Measures that some members have and others have not: how they are taken must be said."""
+    done = [row for row in rows if row.done]
+    for name in measures:
+        without = [row.member.name for row in done if row.measure(name) is None]
+        if 0 < len(without) < len(done):
+            listed = ", ".join(without[:5]) + (", ..." if len(without) > 5 else "")
+            yield (f"{name} has no value in {len(without)} of {len(done)} members ({listed}): they are left out of what is "
+                   f"said of it, and a refinement says no error of it.")
+
+
 def reference_of(study, rows, name):
     """(value, half-width or None, source) of the truth of a measure, or None."""
     for row in rows:

@@ -11,6 +11,7 @@ import sys
 
 import accuracy
 import results
+from answer import missing_sentences
 from members import Engine, text_of, write_json
 from refinement import Convergence
 from search import BallisticLimit, Calibrate
@@ -204,6 +205,7 @@ def tell(study, question, rows, folder, more):
                        f"is gone, or "
                        "the outcome is open); leave it out, or change `time.end`")
     answer = question.answer(rows)
+    answer.sentences += missing_sentences(rows, study.measures)
     page = results.write(folder, study, rows, answer)
     for line in answer.sentences:
         print(line)

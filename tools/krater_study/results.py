@@ -129,6 +129,8 @@ def write(folder, study, rows, answer):
                                                           "members": members}))
     if study.kind in ("convergence", "accuracy"):
         write_bands(os.path.join(folder, "uncertainty.tsv"), study.scene, answer.data["measures"])
+    if study.kind == "ablation" and "verdicts" in answer.data:
+        write_influence(os.path.join(folder, "influence.tsv"), study.scene, rows[0].cell, answer.data)
     path = os.path.join(folder, "study.html")
     with open(path + ".part", "w", encoding="utf-8") as file:
         file.write(page(made, rows, answer, table, draw(folder, answer)))
@@ -146,6 +148,21 @@ def write_bands(path, scene, curves):
                 if c["uncertainty"] is not None and value is not None:
                     band = c["uncertainty"] + abs(value - c["value"])
                     file.write(f"{name}\t{cell:.17g}\t{value:.17g}\t{band:.6g}\t{c['how']}\n")
+    os.replace(path + ".part", path)
+
+
+def write_influence(path, scene, cell, data):
+    """What each effect moves most, for the table of effects of `krater check` and `krater run`
+    (src/app/effect_influence.cpp): the keys that take it away, change in %, measure, verdict."""
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(f"# scene {os.path.basename(scene)} {cell:.17g}\n")
+        for effect, verdict in data["verdicts"].items():
+            found = {name: change[effect] for name, change in data["changes_percent"].items()}
+            gone = [name for name, change in found.items() if change is None]
+            most = gone[0] if gone else max(found, key=lambda name: abs(found[name]), default=None)
+            if most is not None:
+                change = "all" if gone else f"{abs(found[most]):.2g}"
+                file.write(f"{' '.join(data['effects'][effect])}\t{change}\t{most}\t{verdict}\n")
     os.replace(path + ".part", path)
 
 

@@ -139,6 +139,7 @@ class Ablation:
             answer.sentences.append("Without the scene as it is there is nothing to compare with.")
             return answer
         changes = {name: {} for name in self.study.measures if base.measure(name)}
+        verdicts = {}
         table = Table("Change without each effect, in %", ["without", *changes, "core-seconds", "time saved", "advice"],
                       [["-", *(scaled_text(base.measure(name), base.unit(name)) for name in changes),
                         number(base.cost["core_seconds"], 3), "", ""]])
@@ -154,6 +155,7 @@ class Ablation:
             gone = [name for name, v in found.items() if v is None]
             saved = 1 - row.cost["core_seconds"] / max(base.cost["core_seconds"], 1e-9)
             keep = most > 100 * self.KEEP or bool(gone)
+            verdicts[effect] = "keep" if keep else "could go"
             table.rows.append([effect, *("-" if v is None else f"{v:+.3g}" for v in found.values()),
                                number(row.cost["core_seconds"], 3), f"{100 * saved:+.0f} %", "keep" if keep
                                else "could go"])
@@ -166,7 +168,8 @@ class Ablation:
                                 "the same scene may need it. Times are of single runs on this machine: differences of "
                                 "some "
                                 "per cent are noise.")
-        answer.tables, answer.data = [table], {"changes_percent": changes, "effects": self.effects}
+        answer.tables, answer.data = [table], {"changes_percent": changes, "effects": self.effects,
+                                               "verdicts": verdicts}
         answer.pictures = [Picture("effects", "What each effect does to each measure.",
                                    lambda figure: pictures.bars(figure, changes))]
         return answer

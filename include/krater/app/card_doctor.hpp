@@ -3,6 +3,7 @@
 /// \file app/card_doctor.hpp
 /// Doubts about the numbers of a material, for `krater check`: they do not keep a run from
 /// starting.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ std::vector<std::string> doubt_magnitudes(const MaterialOptions& material);
 
 /// The same of a scene's sizes, speeds and times.
 std::vector<std::string> doubt_scene(const Scene& scene);
+
+/// A parameter of a law by its key; empty if the law has no such parameter.
+std::optional<double> parameter(const std::optional<LawChoice>& choice, const char* key);
 
 /// rho0 c0^2 of the material's equation of state [Pa]; 0 without one.
 double bulk_modulus_at_rest(const MaterialOptions& material);

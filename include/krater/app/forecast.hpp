@@ -10,6 +10,7 @@
 /// c: sound speed at rest, 1.35: viscosity and a shock of moderate strength. Rates are those of a
 /// 2020s server core: times are good to a factor of about two.
 #include <string>
+#include <vector>
 
 #include "krater/scene/scene.hpp"
 
@@ -28,7 +29,10 @@ struct Forecast {
 
 Forecast forecast(const Scene& scene);
 
-/// The greatest initial (or prescribed) speed of a body [m/s], found on a few of its points.
+/// Initial (or prescribed) velocities of a body on a few places of its box.
+std::vector<Triple> sampled_velocities(const Scene& scene, const BodyOptions& body);
+
+/// The greatest of them [m/s].
 double greatest_speed(const Scene& scene, const BodyOptions& body);
 
 /// Throws InputError, with figures and remedy, where the scene needs more memory than there is or

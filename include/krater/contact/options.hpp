@@ -45,6 +45,7 @@ enum class ContactNormal { volume_gradient, logistic_regression };
 struct ContactOptions {
   bool active = false;
   ContactNormal normal = ContactNormal::volume_gradient;
+  std::string where;
   int fields = 0;
   std::vector<double> friction;  ///< Coulomb coefficient by pair of bodies, fields x fields
   double friction_of(int a, int b) const {

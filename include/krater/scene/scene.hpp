@@ -60,6 +60,7 @@ struct MaterialOptions {
   DegradePressure degrade_pressure = DegradePressure::tension;  ///< by damage
   FailureAction failure = FailureAction::strength_loss;
   std::optional<double> spall_strength;  ///< tension [Pa]; absent: no limit
+  std::string spall_where, rate_where;   ///< empty: not asked for
   SpallAction spall_action = SpallAction::fail;
   bool bare = false;                   ///< no law: enough for rigid bodies
   std::string card;                    ///< file of its card, "": none

@@ -44,6 +44,7 @@ Node read_contact(const Node& node, Reading& reading) {
   ContactOptions& contact = reading.scene.contact;
   Block block{&node, node.path, node, reading.problems};
   contact.active = true;
+  contact.where = block.place().where();
   contact.fields = static_cast<int>(reading.scene.bodies.size());
   contact.normal =
       block.choice<ContactNormal>("normal",

@@ -175,6 +175,8 @@ struct LawReader {
       node = nullptr;
     }
     if (!brief && !node) return;
+    const Node* place = material.find("spall");
+    options.spall_where = (place ? place : material.find("spall_strength"))->where();
     Block block{node, material.place().path + ".spall", material.place(), reading.problems};
     if (brief) block.record("strength", number_node(*brief));
     options.spall_strength = brief ? *brief : block.number(kSpall);
@@ -188,6 +190,7 @@ struct LawReader {
     Words<Rate> words;
     for (int i = 0; i < 4; ++i) words.emplace_back(kRateNames[i], static_cast<Rate>(i));
     options.rate = material.choice<Rate>("rate", words, Rate::truesdell);
+    if (const Node* node = material.find("rate")) options.rate_where = node->where();
   }
 
   /// A family whose first law goes without saying: `viscosity: {q_lin: 0.3}`, its parameters stand
