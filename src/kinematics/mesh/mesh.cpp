@@ -77,24 +77,33 @@ std::vector<std::vector<std::size_t>> faces_of(int dimension) {
 
 }  // namespace
 
-std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh) {
+std::vector<std::array<std::int32_t, 4>> exposed_faces(const Mesh& mesh) {
   const auto corners = static_cast<std::size_t>(mesh.corners());
-  std::map<std::vector<std::int32_t>, std::pair<int, std::vector<std::int32_t>>> faces;
+  using Face = std::array<std::int32_t, 4>;
+  std::map<Face, std::pair<int, Face>> faces;
   for (std::size_t e = 0; e < mesh.element_count(); ++e)
     for (const auto& face : faces_of(mesh.dimension)) {
-      std::vector<std::int32_t> around;
-      for (const std::size_t I : face) around.push_back(mesh.elements[e * corners + I]);
-      std::vector<std::int32_t> key = around;
+      Face around{-1, -1, -1, -1};
+      for (std::size_t k = 0; k < face.size(); ++k)
+        around[k] = mesh.elements[e * corners + face[k]];
+      Face key = around;
       std::sort(key.begin(), key.end());
       auto& seen = faces[key];
       ++seen.first;
       seen.second = around;
     }
+  std::vector<Face> exposed;
+  for (const auto& [key, seen] : faces)
+    if (seen.first == 1) exposed.push_back(seen.second);
+  return exposed;
+}
+
+std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh) {
   std::set<std::array<std::int32_t, 2>> edges;
-  for (const auto& [key, face] : faces) {
-    const auto& [times, around] = face;
-    for (std::size_t k = 0; times == 1 && k < around.size(); ++k) {
-      const std::int32_t a = around[k], b = around[(k + 1) % around.size()];
+  for (const auto& face : exposed_faces(mesh)) {
+    const std::size_t corners = face[2] < 0 ? 2 : 4;
+    for (std::size_t k = 0; k < corners; ++k) {
+      const std::int32_t a = face[k], b = face[(k + 1) % corners];
       edges.insert({std::min(a, b), std::max(a, b)});
     }
   }

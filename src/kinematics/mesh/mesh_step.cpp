@@ -155,11 +155,25 @@ double MeshStep::force(double dt) {
   return dt;
 }
 
+std::vector<MeshNodes> MeshStep::all_nodes() {
+  std::vector<MeshNodes> out;
+  for (const auto& b : bodies_)
+    out.push_back({b->made_of.body, b->nodes.data(), b->changes.data(), b->node_count});
+  return out;
+}
+
 void MeshStep::meet(double dt) {
+  if (contact_) contact_->push(all_nodes(), dt);
   over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums& sums) {
     hold_planes(b, first, last, sums);
     push_from_sides(b, first, last, dt, sums);
   });
+  if (!contact_) return;
+  const MeshContactWork work = contact_->book(all_nodes());
+  audit_.contact_heat += work.heat;
+  audit_.friction_work += work.friction;
+  audit_.contact_pairs = work.pairs;
+  contact_->give(*impulses_);
 }
 
 void MeshStep::hold_planes(Elements& b, std::size_t first, std::size_t last, WallSums& sums) const {

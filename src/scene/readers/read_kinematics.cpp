@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -98,18 +99,20 @@ void check_alone(const Node& place, Reading& reading) {
   const auto fail = [&](const std::string& what) {
     reading.problems.add(place.file, place.line, place.path, "kinematics lagrangian_mesh " + what);
   };
-  if (scene.bodies.size() > 1)
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const BodyOptions& body) { return !body.mesh; }))
     fail(
-        "does not meet other bodies yet: a scene with it has one body, against the sides of the "
-        "domain; use kinematics: mpm where bodies meet");
+        "does not meet bodies of points yet: give every body of the scene kinematics: "
+        "lagrangian_mesh, or none");
   if (scene.method.reference != Reference::current)
     fail("knows the current configuration only: leave out method.reference");
   if (scene.body_force || scene.loads.any())
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
   if (!scene.detonators.empty()) fail("is not lit by detonators yet; use kinematics: mpm");
   for (const MeasureOptions& measure : scene.measures)
-    if (!measure.by.empty())
-      fail("has no measures of what one partner did to a body (" + measure.name +
+    if (std::any_of(measure.by.begin(), measure.by.end(),
+                    [](const Partner& by) { return by.kind != Partner::Kind::body; }))
+      fail("has no measures of what one side of the domain did to a body (" + measure.name +
            "): wall_impulse of the history is that of all sides");
   for (const auto& axis : scene.grid.boundary)
     for (const Boundary& side : axis)

@@ -39,7 +39,11 @@ struct NodeCorners {
 };
 NodeCorners node_corners(const Mesh& mesh);
 
-/// Edges of the faces that no two elements share, each once.
+/// Corners of the faces that no two elements share, right-handed about the normal outwards; in two
+/// dimensions edges with the outside at their right, and -1 for the last two corners.
+std::vector<std::array<std::int32_t, 4>> exposed_faces(const Mesh& mesh);
+
+/// Edges of the exposed faces, each once.
 std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh);
 
 /// int N_I dV of every corner of every element, V over w = 1 or 2 pi r, by Gauss points: exact for

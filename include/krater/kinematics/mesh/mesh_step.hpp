@@ -8,7 +8,8 @@
 /// node pass, x + dt v+ on its plane, with Coulomb friction, and never pulls; sticky holds a node
 /// whole from when it touches. What that takes from the motion of a node is heat of its elements.
 /// Kinetic + internal + hourglass energy is constant to round-off.
-/// Not here: contact between bodies, driven sides, fixed references (issue 28).
+/// Bodies meet by their faces (kinematics/mesh/mesh_contact.hpp), after the forces and before the
+/// sides. Not here: driven sides, fixed references (issue 28).
 #include <array>
 #include <memory>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/kinematics.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
+#include "krater/kinematics/mesh/mesh_contact.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
 
 namespace krater {
@@ -66,6 +68,8 @@ class MeshStep final : public Kinematics {
   MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit);
   ~MeshStep() override;
 
+  /// Bodies meet on a grid of such cells, and tell `impulses`; before the first body.
+  void set_contact(double cell, const ContactOptions& options, Impulses& impulses);
   /// Throws InputError where an element has no volume or a node no element.
   void add(ElementBody body);
   void start();  ///< after the last body: forces, energies, and the first limit of the step
@@ -111,6 +115,7 @@ class MeshStep final : public Kinematics {
     int first, last;
   };
   ElementScratch scratch();
+  std::vector<MeshNodes> all_nodes();
   ElementData data(Elements& body);
   void hold_planes(Elements& body, std::size_t first, std::size_t last, WallSums& sums) const;
   Triple push_of(const PushingSide& side, double missing, const double* node,
@@ -118,6 +123,7 @@ class MeshStep final : public Kinematics {
   void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
+  static std::vector<MeshContact::Face> meeting_faces(const Elements& body);
   template <class Work>
   void over_nodes(const Work& work);
   void combine(const std::vector<ElementResult>& results, bool energies);
@@ -129,6 +135,8 @@ class MeshStep final : public Kinematics {
   Audit& audit_;
   std::vector<std::unique_ptr<Elements>> bodies_;
   std::vector<Chunk> chunks_;
+  std::unique_ptr<MeshContact> contact_;
+  Impulses* impulses_ = nullptr;
   std::vector<AlignedBuffer> scratch_;
   TimeStepLimit limit_;
 };
