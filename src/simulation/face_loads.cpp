@@ -2,8 +2,10 @@
 // Which points belong to the faces of loads: at the start, by the body's own shape.
 #include <algorithm>
 
+#include "krater/core/errors.hpp"
 #include "krater/kinematics/mpm/node_loads.hpp"
-#include "krater/simulation/body.hpp"
+#include "krater/points/load_fields.hpp"
+#include "krater/simulation/face_loads.hpp"
 
 namespace krater {
 
@@ -34,6 +36,33 @@ bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, 
   return std::any_of(spans.begin(), spans.end(), [&](const Span& span) {
     return x[a] >= span.low && x[a] <= span.high && distance(span) <= depth;
   });
+}
+
+namespace {
+
+bool marks_any(const Simulation& sim, int face) {
+  for (int s = 0; s < sim.set_count(); ++s) {
+    const std::vector<int> loads = loads_of(sim.scene(), sim.set(s).body);
+    const auto at = std::find(loads.begin(), loads.end(), face);
+    if (at == loads.end()) continue;
+    const int mark = sim.bodies()[static_cast<std::size_t>(sim.set(s).body)]->slot(
+        field::LoadShare::info, static_cast<int>(at - loads.begin()));
+    for (int i = 0; i < sim.set(s).count(); ++i)
+      if (sim.value(s, i, mark) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void require_faces(const Simulation& sim) {
+  const std::vector<FaceLoad>& faces = sim.scene().loads.faces;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (!marks_any(sim, static_cast<int>(k)))
+      throw InputError(faces[k].where +
+                       ": no point of its body lies there at the start, so the load has nothing to "
+                       "act on; where and inside are bounds of the material's place at the start "
+                       "and should reach four cells below the loaded surface");
 }
 
 }  // namespace krater

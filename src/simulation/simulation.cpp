@@ -10,6 +10,7 @@
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
+#include "krater/simulation/face_loads.hpp"
 #include "krater/simulation/point_maker.hpp"
 
 namespace krater {
@@ -120,6 +121,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
                                    kernel_data_, audit_, *loads_, impulses_, carrier_kernels_.get(),
                                    kernel_shape(scene.method.shape)});
   place_rigid_bodies();
+  require_faces(*this);
   place_meshes();
   choose_first_step();
   const Totals start = totals();

@@ -213,6 +213,7 @@ def main():
                 owners(name)
         for setting, part in (("measures.slant.by=x_min", "pushes nobody"), ("measures.slant.by=block", "gives itself"),
                               ("measures.slant.axis=[0, 0]", "needs a length"), ("measures.slant.by=plat", "pushes nobody"),
+                              ("grid.boundary.z_min=sticky", "is in wall_impulse of the history"),
                               ("measures.more={kind: impulse, body: ball, by: all}", "axis"),
                               ("contact=none", "known are bodies where"), ("measures.gauges={kind: mass, body: block}", "under this name")):
             done = krater("check", scene, "--set", setting)

@@ -59,6 +59,11 @@ def main():
         audit = summary("wears")["audit"] if done.returncode == 0 else {"events": {"removed_failed_points": 0}}
         check(audit["events"]["removed_failed_points"] > 0 and
               abs(audit["energy_residual"]) < 1e-10 * audit["load_work"], "a face that wears away stays loaded", done.text[-300:])
+        for setting in ("loads.blast.where={z_min: 30 mm}", "loads.blast.where={r_min: 4 mm, r_max: 4.01 mm}",
+                        "loads.more={body: block, pressure: 1 GPa, inside: {sphere: {radius: 1 mm, center: [0, 20 mm]}}}"):
+            done = krater("check", scene, "--set", setting)
+            check(done.returncode == 2 and "loads." in done.text and "nothing to act on" in done.text,
+                  f"{setting}: a face that no body has is refused", done.text[:300])
     finish()
 
 

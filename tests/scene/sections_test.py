@@ -81,6 +81,8 @@ def strip(scene):
     near(slant["area"], WIDTH / 0.8, 0.01, "area of an oblique section")
     near(slant["force_z"][here], -1e6 * WIDTH, 0.01, "the same force passes an oblique section")
     near(slant["force_x"][here], -1e6 * ACROSS / STIFF * WIDTH * 0.6 / 0.8, 0.01, "and what the stress across does")
+    again = krater("check", "one/resolved.yaml")
+    check(again.returncode == 0, "the resolved scene reads again", again.text[:300])
     said = summary("one")["gauges"]
     check(said["above"]["nothing_there_since"] == [0] and said["cuts"]["nothing_there_since"] == [None] * 3,
           "a section without matter says since when", said["above"])

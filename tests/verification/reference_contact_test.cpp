@@ -41,28 +41,42 @@ double velocity(const Run& run, int body) {
   return t.momentum[1] / t.mass;
 }
 
+/// Velocity of the target over 20 m/s when the bars have parted; the account must close.
+double struck(const char* reference, int cells, double joint) {
+  Run run = start_bars(reference, cells, joint);
+  const Totals start = run.sim->totals();
+  run_to(run, 0.3 / cells / 20 + 2.3 / kWave);
+  const double target = velocity(run, 0), striker = velocity(run, 1);
+  MESSAGE(std::string{reference} << ", joint " << joint << ", " << cells << " cells: target "
+                                 << target / 20 << ", striker " << striker / 20);
+  CHECK(std::abs(run.sim->totals().momentum[1] - start.momentum[1]) < 1e-12 * start.momentum[1]);
+  CHECK(run.sim->audit().energy() == doctest::Approx(start.kinetic).epsilon(1e-10));
+  CHECK(std::abs(energy_residual(run)) < 1e-10 * start.kinetic);
+  return target / 20;
+}
+
 }  // namespace
 
+// Exact is 1: equal bars exchange their velocities. The bars part when the fronts that come back
+// from their free ends have let the pressure at the joint fall to nothing, half of their width
+// early. What the tail of a front of standard deviation s would still have brought is missing,
+//   1 - v = s/(sqrt(2 pi) L),
+// and s goes with h^(1/2) by linear viscosity, s^2 = 2 q_lin h L, and with h^(2/3) by dispersion.
+// So a quarter of the cell halves the loss at least. (Joint 0.3 on `current`, measured without
+// viscosity, with q_lin = 0.1, and both terms added in squares: 200 cells 0.0220, 0.0250, 0.0254;
+// 400 cells 0.0117, 0.0141, 0.0147.)
 TEST_SUITE("verification") {
-  TEST_CASE("two bars on every reference: no slower, momentum and energy kept") {
+  TEST_CASE("two bars on every reference: to the exact velocity, and the same one") {
     for (const double joint : {0.0, 0.3}) {
       double on_current = 0;
       for (const char* reference : kReferences) {
         CAPTURE(std::string{reference});
         CAPTURE(joint);
-        Run run = start_bars(reference, 200, joint);
-        const Totals start = run.sim->totals();
-        run_to(run, 0.3 / 200 / 20 + 2.3 / kWave);
-        const double target = velocity(run, 0), striker = velocity(run, 1);
-        const double energy = run.sim->audit().energy();
-        MESSAGE("target " << target / 20 << ", striker " << striker / 20);
-        if (on_current == 0) on_current = target;
-        CHECK(target > on_current - 0.005 * 20);  // what is missing to 20 is lost in contact
-        CHECK(target < 20 * (1 + 1e-9));
-        CHECK(std::abs(run.sim->totals().momentum[1] - start.momentum[1]) <
-              1e-12 * start.momentum[1]);
-        CHECK(energy == doctest::Approx(start.kinetic).epsilon(1e-10));
-        CHECK(std::abs(energy_residual(run)) < 1e-10 * start.kinetic);
+        const double coarse = struck(reference, 100, joint), fine = struck(reference, 400, joint);
+        if (on_current == 0) on_current = fine;
+        CHECK(fine < 1 + 1e-9);
+        CHECK(1 - fine < (1 - coarse) / 2);
+        CHECK(std::abs(fine - on_current) < 0.005);
       }
     }
   }

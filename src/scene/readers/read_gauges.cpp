@@ -13,15 +13,14 @@ constexpr double kSamples = 1000;  // over the run, unless told otherwise
 /// `at: [0, 3 mm]`, or a line `from`, `to`, `count`.
 void read_places(Block& block, GaugeOptions& gauge, Reading& reading) {
   const Node *at = block.find("at"), *from = block.find("from"), *to = block.find("to");
-  const bool line = from || to || block.find("count");
-  const int count = block.integer("count", 2, 1000, 2);
-  if (at ? line : !(from && to))
+  if (at ? from || to || block.find("count") : !(from && to))
     return block.fail("expected at: [r or x, z], or a line from: [...], to: [...], count: 5");
   if (at) {
     if (const auto place = read_place(*at, reading)) gauge.at.push_back(*place);
     block.record("at", *at);
     return;
   }
+  const int count = block.integer("count", 2, 1000, 2);
   const auto first = read_place(*from, reading), last = read_place(*to, reading);
   block.record("from", *from);
   block.record("to", *to);

@@ -153,10 +153,12 @@ void read_partner(Block& block, MeasureOptions& measure, Reading& reading) {
     if (k.name == *word || (*word == "all" && !itself(k.partner))) measure.by.push_back(k.partner);
   }
   if (measure.by.empty())
-    return block.fail(*node, quote(*word) +
-                                 " pushes nobody here: known are bodies where the scene "
-                                 "has contact:, and sides that are a wall or driven (" +
-                                 (known.empty() ? "none" : join(names)) + ")");
+    return block.fail(*node,
+                      quote(*word) +
+                          " pushes nobody here: known are bodies where the scene "
+                          "has contact:, and sides that are a wall or driven (" +
+                          (known.empty() ? "none" : join(names)) +
+                          "); what other closed sides give is in wall_impulse of the history");
   block.record("by", string_node(*word));
   if (itself(measure.by.front()))
     block.fail(*node, "a body gives itself no impulse: by must be another one");
