@@ -21,6 +21,7 @@ import numpy as np
 
 NUMBER_TYPES = {("Float", 8): "f8", ("Float", 4): "f4", ("Int", 8): "i8", ("Int", 4): "i4"}
 COMPONENTS = {"Scalar": 1, "Vector": 3, "Tensor": 9}
+CORNERS = {"Polyvertex": 1, "Quadrilateral": 4, "Hexahedron": 8}
 
 
 def sizes(text):
@@ -92,31 +93,45 @@ class Checker:
         """One body in one frame."""
         body = grid.get("Name")
         topology, geometry = grid.find("Topology"), grid.find("Geometry")
-        if topology is None or geometry is None or topology.get("TopologyType") != "Polyvertex":
-            return self.error(f"frames.xmf: {body}: a Polyvertex topology and a geometry expected")
-        points = int(topology.get("NumberOfElements", -1))
-        cells = self.array(topology.find("DataItem"), "cells")
-        if cells is not None and not np.array_equal(cells, np.arange(points)):
-            self.error(f"frames.xmf: {body}: cells are not 0 ... {points - 1}")
+        corners = CORNERS.get(topology.get("TopologyType")) if topology is not None else None
+        if corners is None or geometry is None:
+            return self.error(f"frames.xmf: {body}: a topology of {', '.join(CORNERS)} and a geometry expected")
+        rows = {"Cell": int(topology.get("NumberOfElements", -1))}
         coordinates = self.array(geometry.find("DataItem"), "coordinates")
-        if coordinates is not None and coordinates.shape != (points, 3):
+        if coordinates is not None and coordinates.shape[1:] != (3,):
             self.error(f"frames.xmf: {body}: coordinates have shape {coordinates.shape}")
+        rows["Node"] = rows["Cell"] if corners == 1 or coordinates is None else len(coordinates)
+        self.cells(body, self.array(topology.find("DataItem"), "cells"), corners, rows)
         names = set()
         for attribute in grid.findall("Attribute"):
-            name, kind = attribute.get("Name"), attribute.get("AttributeType")
-            if name in names:
+            name, kind, centre = attribute.get("Name"), attribute.get("AttributeType"), attribute.get("Center")
+            if (name, centre) in names:
                 self.error(f"frames.xmf: {body}: {name} twice")
-            names.add(name)
-            if attribute.get("Center") != "Node" or kind not in COMPONENTS:
+            names.add((name, centre))
+            if centre not in rows or kind not in COMPONENTS:
                 self.error(f"frames.xmf: {body}: {name}: unknown centre or type")
                 continue
             values = self.array(attribute.find("DataItem"), name)
-            wanted = (points,) if kind == "Scalar" else (points, COMPONENTS[kind])
+            wanted = (rows[centre],) if kind == "Scalar" else (rows[centre], COMPONENTS[kind])
             if values is not None and values.shape != wanted:
-                self.error(f"frames.xmf: {body}: {name} is {kind} but has shape {values.shape}")
-        if "id" not in names:
+                self.error(f"frames.xmf: {body}: {name} is {kind} at each {centre} but has shape {values.shape}")
+        if ("id", "Node" if corners == 1 else "Cell") not in names:
             self.error(f"frames.xmf: {body}: no id")
         return None
+
+    def cells(self, body, cells, corners, rows):
+        """A vertex per point, or corners that are nodes, each used by some cell and none twice by one."""
+        if cells is None:
+            return
+        if corners == 1:
+            if not np.array_equal(cells, np.arange(rows["Cell"])):
+                self.error(f"frames.xmf: {body}: cells are not 0 ... {rows['Cell'] - 1}")
+        elif cells.shape != (rows["Cell"], corners):
+            self.error(f"frames.xmf: {body}: cells of shape {cells.shape}")
+        elif not np.array_equal(np.unique(cells), np.arange(rows["Node"])):
+            self.error(f"frames.xmf: {body}: cells do not use the nodes 0 ... {rows['Node'] - 1}")
+        elif (np.diff(np.sort(cells, axis=1), axis=1) == 0).any():
+            self.error(f"frames.xmf: {body}: a cell has a node twice")
 
     def index(self, times):
         """frames.h5 leads to the same frames as frames.xmf; every field says its unit and meaning."""
@@ -131,8 +146,9 @@ class Checker:
             for body in frame.values():
                 if len(np.unique(body["id"][()])) != len(body["id"]):
                     self.error(f"{body.name}: an id occurs twice")
-                for field in body.values():
-                    self.attributes(field)
+                for field in [*body.values(), *body.get("nodes", {}).values()]:
+                    if isinstance(field, h5py.Dataset):
+                        self.attributes(field)
 
     def attributes(self, field):
         if field.name.endswith("/cells"):

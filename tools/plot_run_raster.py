@@ -167,3 +167,26 @@ class Fraction:
     def isolated(self):
         """Entries of `index` and `places` where phi < 1/2: phi does not show these points."""
         return np.flatnonzero((self.raster.at(self.phi, self.places) < HALF) & self.inside)
+
+
+def stamp(u, v, reach, shape, order, key):
+    """Point in each pixel, -1 where none: of all points whose square covers the pixel (`reach` pixels
+    about the point) that with the smallest `key(points, rows, columns)`. Of several points in one
+    pixel the last in `order` counts."""
+    nearest, best = np.full(shape, -1), np.full(shape, np.inf)
+    latest = np.full(shape, -1)
+    largest = int(reach.max(initial=0))
+    column, row = np.floor(u).astype(int), np.floor(v).astype(int)
+    for i in range(-largest, largest + 1):
+        for j in range(-largest, largest + 1):
+            points = order[reach[order] >= max(abs(i), abs(j))]
+            r, c = row[points] + i, column[points] + j
+            inside = (r >= 0) & (r < shape[0]) & (c >= 0) & (c < shape[1])
+            points, r, c = points[inside], r[inside], c[inside]
+            latest[r, c] = points
+            last = latest[r, c] == points
+            points, r, c = points[last], r[last], c[last]
+            keys = key(points, r, c)
+            closer = keys < best[r, c]
+            best[r[closer], c[closer]], nearest[r[closer], c[closer]] = keys[closer], points[closer]
+    return nearest, best

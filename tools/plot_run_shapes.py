@@ -12,7 +12,8 @@ import h5py
 import numpy as np
 from matplotlib import cm, colormaps, colors, patheffects
 
-from plot_run_raster import HALF, Fraction, Raster, box_mean, closed_planes
+from plot_run_elements import draw_elements, draw_surfaces
+from plot_run_raster import HALF, Fraction, Raster, box_mean, closed_planes, stamp
 
 ABSENT = -1e300
 REFERENCE = "#d6006c"  # far from every colour of the maps below
@@ -32,6 +33,8 @@ class Body:
         self.fields = group
         self.side = self.spacing(summary)  # of the square or cube that each point stands for
         self.volume = self.volumes(frame_of(summary, self.x))
+        self.nodes = group["nodes"]["coordinates"][()] if "nodes" in group else None
+        self.cells = group["connectivity"][()][self.kept] if "nodes" in group else None  # corners of each element
 
     def volumes(self, frame):
         """Of a full ring in axisymmetry, per length in plane strain."""
@@ -189,32 +192,16 @@ class Colouring:
 
 # ------------------------------------------------------------------------------------------ shapes
 
-def stamp(u, v, reach, shape, order, key):
-    """Point in each pixel, -1 where none: of all points whose square covers the pixel (`reach` pixels
-    about the point) that with the smallest `key(points, rows, columns)`. Of several points in one
-    pixel the last in `order` counts."""
-    nearest, best = np.full(shape, -1), np.full(shape, np.inf)
-    latest = np.full(shape, -1)
-    largest = int(reach.max(initial=0))
-    column, row = np.floor(u).astype(int), np.floor(v).astype(int)
-    for i in range(-largest, largest + 1):
-        for j in range(-largest, largest + 1):
-            points = order[reach[order] >= max(abs(i), abs(j))]
-            r, c = row[points] + i, column[points] + j
-            inside = (r >= 0) & (r < shape[0]) & (c >= 0) & (c < shape[1])
-            points, r, c = points[inside], r[inside], c[inside]
-            latest[r, c] = points
-            last = latest[r, c] == points
-            points, r, c = points[last], r[last], c[last]
-            keys = key(points, r, c)
-            closer = keys < best[r, c]
-            best[r[closer], c[closer]], nearest[r[closer], c[closer]] = keys[closer], points[closer]
-    return nearest, best
-
-
 def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
-    """Material where the volume fraction of a body is above 1/2, coloured by the mean about each pixel;
-    points that it does not show, or whose value is no number, as squares of their own area."""
+    """Elements as they are; points: material where the volume fraction of a body is above 1/2, coloured by the mean
+    about each pixel; points that it does not show, or whose value is no number, as squares of their own area."""
+    for body in bodies:
+        if body.cells is not None:
+            draw_elements(axes, run, body, colouring, mm)
+    axes.set_aspect("equal")
+    bodies = [body for body in bodies if body.cells is None]
+    if not bodies:
+        return
     raster = Raster(box * mm, float(run.summary.get("cell") or 2 * np.median(bodies[0].side)), pixels)
     image, most = np.ones(raster.shape + (4,)), np.full(raster.shape, HALF)
     for body in bodies:
@@ -238,7 +225,6 @@ def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
             marked &= ~body_in.beyond
             image[marked] = colouring.rgba(values[body_in.index[alone]])[nearest[marked]]
     axes.imshow(image, origin="lower", extent=raster.extent(mm), interpolation="antialiased")
-    axes.set_aspect("equal")
 
 
 def limits(run, numbers, mm):
@@ -246,9 +232,10 @@ def limits(run, numbers, mm):
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for number in numbers:
         for body in run.bodies(number):
-            half = 0.5 * body.side[:, None]
-            low = np.minimum(low, np.nanmin(body.x - half, axis=0))
-            high = np.maximum(high, np.nanmax(body.x + half, axis=0))
+            half = 0.5 * body.side[:, None] if body.cells is None else 0.0
+            x = body.x if body.cells is None else body.nodes
+            low = np.minimum(low, np.nanmin(x - half, axis=0))
+            high = np.maximum(high, np.nanmax(x + half, axis=0))
     if run.frame == "axisymmetric":
         low[0] = -high[0]
     return np.array([low[0], high[0], low[2], high[2]]) / mm
@@ -267,6 +254,9 @@ def view_from_outside(axes, bodies, colouring, mm, azimuth=-60.0, elevation=22.0
     towards = np.array([math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)])
     right = np.array([-math.sin(a), math.cos(a), 0.0])
     up = np.cross(towards, right)
+    if all(body.cells is not None for body in bodies):
+        draw_surfaces(axes, bodies, colouring, mm, np.array([right, up, towards]))
+        return
     x = np.concatenate([b.x for b in bodies])
     side = np.concatenate([b.side for b in bodies])
     rgba = np.concatenate([colouring.of(b) for b in bodies])

@@ -157,7 +157,7 @@ class Frame:
             times = np.array([float(file["frames"][name].attrs["time"]) for name in names])
             at = -1 if time is None else int(np.argmin(np.abs(times - time)))
             self.time = times[at]
-            self.bodies = {body: {field: data[()] for field, data in group.items() if field != "cells"}
+            self.bodies = {body: {field: data[()] for field, data in group.items() if field not in ("cells", "nodes")}
                            for body, group in file["frames"][names[at]].items()}
 
     def all(self, field):

@@ -89,6 +89,20 @@ void print_shape(const Scene& scene, const Body& body, int coarser) {
       coarser * body.fill_report().smallest_thickness_in_cells, body.thickness() / scene.grid.cell);
 }
 
+/// Which element is worst, and which sets the step.
+void print_elements(const Simulation& sim) {
+  if (sim.mesh() == nullptr) return;
+  const MeshHealth& mesh = sim.elements();
+  const std::string place =
+      mesh.worst_body < 0 || mesh.least_corner > 1 - 1e-9
+          ? ""
+          : fmt::format(" in element {} of {}", mesh.worst_element,
+                        sim.bodies()[static_cast<std::size_t>(mesh.worst_body)]->name());
+  fmt::print("elements: {}; least corner Jacobian {:.4g} of its element's mean{}\n", mesh.elements,
+             mesh.least_corner, place);
+  fmt::print("  time step {:.4g} s, {}\n", sim.stable_step(), sim.describe_limit());
+}
+
 void print_mesh(const Scene& scene, const BodyOptions& body) {
   const Box box =
       intersection(body.solid->extent(scene.frame), domain_box(scene), dimension(scene.frame));
@@ -229,6 +243,7 @@ void print_check(const RunOptions& options) {
         count_text(cost.points), sample.coarser);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b)
     print_body(sim, scene, static_cast<int>(b), sample.coarser);
+  print_elements(sim);
   print_contact(scene);
   print_estimate(cost);
   if (!options.output.empty()) write_start(sim, options.output);
@@ -237,6 +252,7 @@ void print_check(const RunOptions& options) {
   for (const MaterialOptions& m : scene.materials)
     for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
   for (const std::string& doubt : doubt_fields(scene)) fmt::print("doubt: {}\n", doubt);
+  for (const std::string& doubt : doubt_method(scene)) fmt::print("doubt: {}\n", doubt);
   for (const std::string& doubt : doubt_scene(scene)) fmt::print("doubt: {}\n", doubt);
 }
 

@@ -2,6 +2,7 @@
 #include "krater/app/field_doubts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,6 +31,33 @@ std::vector<std::string> doubt_fields(const Scene& scene) {
           "heavy one drags and strains the light one; contact: {{}} lets each move by itself",
           scene.bodies[light].name, density(light), scene.bodies[heavy].name, density(heavy)));
     }
+  return doubts;
+}
+
+std::vector<std::string> doubt_method(const Scene& scene) {
+  std::vector<std::string> doubts;
+  const bool elements = std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const BodyOptions& body) { return body.mesh.has_value(); });
+  if (!elements) return doubts;
+  const MethodOptions &m = scene.method, usual;
+  const std::pair<const char*, bool> keys[] = {
+      {"shape", m.shape != usual.shape},
+      {"transfer", m.transfer != usual.transfer},
+      {"update", m.update != usual.update},
+      {"points_per_direction", m.points_per_direction != usual.points_per_direction},
+      {"stagger", m.stagger != usual.stagger},
+      {"jitter", m.jitter != usual.jitter},
+      {"seed", m.seed != usual.seed},
+      {"cell_averaging", m.cell_averaging != usual.cell_averaging},
+      {"grid_pressure", m.grid_pressure != usual.grid_pressure},
+      {"flip_fraction", m.flip_fraction != usual.flip_fraction},
+      {"dormant_blocks", m.dormant_blocks != usual.dormant_blocks}};
+  for (const auto& [key, given] : keys)
+    if (given)
+      doubts.push_back(
+          fmt::format("method.{} says how points and grid exchange, and every body of this scene "
+                      "has elements: it changes nothing",
+                      key));
   return doubts;
 }
 

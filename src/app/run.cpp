@@ -155,6 +155,7 @@ void Runner::resume() {
 }
 
 std::vector<Quantity> Runner::history_columns() {
+  sim_.look_at_elements();
   std::vector<Quantity> row = history_row(sim_);
   for (Quantity& q : measurements_.row(sim_)) row.push_back(std::move(q));
   return row;
@@ -316,6 +317,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["time"] = Json::of(sim_.time());
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
+  sim_.look_at_elements();
   measurements_.summarize(sim_, j);
   outcomes_.summarize(sim_, j);
   gauges_.summarize(j);

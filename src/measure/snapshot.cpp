@@ -108,6 +108,44 @@ PointList places_by_id(const Simulation& sim, int body) {
   return places;
 }
 
+/// A vector along grid axes, in space.
+void widen(Frame frame, const Triple& v, double* row) {
+  std::fill_n(row, 3, 0.0);
+  for (int a = 0; a < dimension(frame); ++a)
+    row[tensor_axis(frame, a)] = v[static_cast<std::size_t>(a)];
+}
+
+/// Rows of `width` numbers, each made by `put(node, row)`.
+template <class Put>
+Rows<double> node_rows(int width, Put put) {
+  return [width, put](std::size_t first, std::size_t count, double* out) {
+    for (std::size_t n = first; n < first + count; ++n, out += width) put(n, out);
+  };
+}
+
+FrameMesh frame_mesh(const Simulation& sim, int s) {
+  const MeshStep& step = *sim.mesh();
+  const Mesh& mesh = step.mesh(s);
+  const Frame frame = sim.scene().frame;
+  FrameMesh out;
+  out.nodes = step.node_count(s);
+  out.corners = mesh.corners();
+  out.connectivity = [&mesh](std::size_t first, std::size_t count, std::int64_t* to) {
+    const auto corners = static_cast<std::size_t>(mesh.corners());
+    std::copy_n(mesh.elements.data() + first * corners, count * corners, to);
+  };
+  out.coordinates = node_rows(
+      3, [&step, s, frame](std::size_t n, double* row) { widen(frame, step.position(s, n), row); });
+  const auto velocity = [&step, s, frame](std::size_t n, double* row) {
+    widen(frame, step.velocity(s, n), row);
+  };
+  const auto mass = [&step, s](std::size_t n, double* row) { *row = step.mass(s, n); };
+  out.fields.push_back(
+      {"velocity", "m/s", "velocity of the node", 3, vector_names(frame), node_rows(3, velocity)});
+  out.fields.push_back({"mass", "kg", "its share of its elements", 1, {}, node_rows(1, mass)});
+  return out;
+}
+
 BodyFrame body_frame(const Simulation& sim, int b) {
   const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
   const Frame frame = sim.scene().frame;
@@ -126,6 +164,9 @@ BodyFrame body_frame(const Simulation& sim, int b) {
     if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
       out.fields.push_back(column_array(sim, c, points));
   add_stress(sim, body, points, out);
+  if (body.options().mesh)
+    for (int s = 0; s < sim.set_count(); ++s)
+      if (sim.set(s).body == b) out.mesh = frame_mesh(sim, s);
   if (!asked_for(sim.scene(), kFragmentField)) return out;
   const auto pieces = std::make_shared<const std::vector<double>>(fragment_numbers(sim, b));
   out.fields.push_back({kFragmentField,
@@ -169,6 +210,20 @@ double deviatoric_energy(const Simulation& sim) {
   return std::accumulate(sets.begin(), sets.end(), 0.0);
 }
 
+void add_elements(const Simulation& sim, std::vector<Quantity>& row) {
+  add(row, "hourglass_energy", "J", sim.elements().hourglass);
+  add(row, "folded_elements", "1", static_cast<double>(sim.elements().folded));
+}
+
+void add_elements(const Simulation& sim, Json& j) {
+  const MeshHealth& mesh = sim.elements();
+  j["hourglass_energy"] = Json::of(mesh.hourglass);
+  j["hourglass_share"] = Json::of(mesh.hourglass_share());
+  j["folded_elements"] = Json::of(static_cast<std::int64_t>(mesh.folded));
+  j["most_folded_elements"] = Json::of(static_cast<std::int64_t>(sim.audit().most_folded));
+  j["least_corner_jacobian"] = Json::of(mesh.least_corner);
+}
+
 }  // namespace
 
 OutputFrame make_frame(const Simulation& sim, int number) {
@@ -209,6 +264,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "removed_energy", "J", a.removed_energy);
   add(row, "energy_residual", "J", a.residual(t.kinetic, t.internal));
   add(row, "energy_error_fraction", "1", a.error_fraction());
+  if (sim.mesh() != nullptr) add_elements(sim, row);
   add(row, "mass", "kg", t.mass);
   const Frame frame = sim.scene().frame;
   for (int k = 0; k < dimension(frame); ++k)
@@ -262,7 +318,7 @@ Json audit_json(const Simulation& sim) {
   j["numerical_heat"] = Json::of(a.numerical_heat);
   j["carried_energy"] = Json::of(a.carried);
   j["largest_carried_energy"] = Json::of(a.largest_carried);
-  if (sim.mesh() != nullptr) j["hourglass_energy"] = Json::of(sim.mesh()->hourglass_energy());
+  if (sim.mesh() != nullptr) add_elements(sim, j);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);

@@ -43,42 +43,68 @@ bool is_usable_name(const std::string& name) {
 }
 
 template <class T>
-Node write_array(const Node& group, const BodyFrame& body, const std::string& name, int components,
+Node write_array(const Node& group, std::size_t rows, const std::string& name, int components,
                  const Rows<T>& values) {
-  const Shape shape = components == 1 ? Shape{body.points}
-                                      : Shape{body.points, static_cast<std::uint64_t>(components)};
+  const Shape shape =
+      components == 1 ? Shape{rows} : Shape{rows, static_cast<std::uint64_t>(components)};
   return group.make_packed<T>(name, shape, values);
 }
 
-void write_field(const Node& group, const BodyFrame& body, const FieldArray& field) {
+void write_field(const Node& group, const BodyFrame& body, std::size_t rows,
+                 const FieldArray& field) {
   require(is_usable_name(field.name), body, "unusable name of a field '" + field.name + "'");
   require(field.components > 0 && field.values, body, "no values of '" + field.name + "'");
   require(field.component_names.empty() ||
               field.component_names.size() == static_cast<std::size_t>(field.components),
           body, "wrong number of component names of '" + field.name + "'");
-  const Node dataset = write_array(group, body, field.name, field.components, field.values);
+  const Node dataset = write_array(group, rows, field.name, field.components, field.values);
   dataset.set("unit", field.unit);
   dataset.set("meaning", field.meaning);
   if (!field.component_names.empty()) dataset.set("component_names", field.component_names);
+}
+
+void write_coordinates(const Node& group, std::size_t rows, const Rows<double>& values) {
+  const Node coordinates = write_array(group, rows, "coordinates", 3, values);
+  coordinates.set("unit", std::string("m"));
+  coordinates.set("meaning", std::string("position (x, y, z); axisymmetric (r, 0, z)"));
+  coordinates.set("component_names", std::vector<std::string>{"x", "y", "z"});
+}
+
+/// What frames.xmf draws of a body without a mesh.
+void write_vertices(const Node& group, const BodyFrame& body) {
+  const Rows<std::int64_t> count = [](std::size_t first, std::size_t number, std::int64_t* out) {
+    std::iota(out, out + number, static_cast<std::int64_t>(first));
+  };
+  const Node topology = write_array(group, body.points, "cells", 1, count);
+  topology.set("meaning", std::string("0, 1, 2, ...: one vertex per point, for frames.xmf"));
+}
+
+void write_mesh(const Node& group, const BodyFrame& body, const FrameMesh& mesh) {
+  require(mesh.corners == 8 || mesh.corners == 4, body, "cells of no known kind");
+  require(mesh.connectivity && mesh.coordinates, body, "a mesh without cells or nodes");
+  const Node cells =
+      write_array(group, body.points, "connectivity", mesh.corners, mesh.connectivity);
+  cells.set("unit", std::string("1"));
+  cells.set("meaning", std::string("nodes of each cell: hexahedra bottom counter-clockwise, then "
+                                   "the top; quadrilaterals around"));
+  const Node nodes = group.make_group("nodes");
+  write_coordinates(nodes, mesh.nodes, mesh.coordinates);
+  for (const auto& field : mesh.fields) write_field(nodes, body, mesh.nodes, field);
 }
 
 void write_body(const Node& file, const BodyFrame& body) {
   require(is_usable_name(body.body), body, "unusable name");
   require(body.ids && body.coordinates, body, "no ids or coordinates");
   const Node group = file.make_group(body.body);
-  const Node ids = write_array(group, body, "id", 1, body.ids);
+  const Node ids = write_array(group, body.points, "id", 1, body.ids);
   ids.set("unit", std::string("1"));
   ids.set("meaning", std::string("number of the point in its body, for ever"));
-  const Node coordinates = write_array(group, body, "coordinates", 3, body.coordinates);
-  coordinates.set("unit", std::string("m"));
-  coordinates.set("meaning", std::string("position (x, y, z); axisymmetric (r, 0, z)"));
-  coordinates.set("component_names", std::vector<std::string>{"x", "y", "z"});
-  const Rows<std::int64_t> count = [](std::size_t first, std::size_t number, std::int64_t* out) {
-    std::iota(out, out + number, static_cast<std::int64_t>(first));
-  };
-  const Node topology = write_array(group, body, "cells", 1, count);
-  topology.set("meaning", std::string("0, 1, 2, ...: one vertex per point, for frames.xmf"));
-  for (const auto& field : body.fields) write_field(group, body, field);
+  write_coordinates(group, body.points, body.coordinates);
+  if (body.mesh)
+    write_mesh(group, body, *body.mesh);
+  else
+    write_vertices(group, body);
+  for (const auto& field : body.fields) write_field(group, body, body.points, field);
 }
 
 void remove_file(const fs::path& path) {

@@ -40,10 +40,16 @@ std::string data_item(const std::string& type, int precision, const std::string&
          std::to_string(precision) + "\" Dimensions=\"" + sizes + "\">" + xml(path) + "</DataItem>";
 }
 
-std::string attribute(const std::string& name, const std::string& type, const std::string& item) {
-  return "        <Attribute Name=\"" + xml(name) + "\" AttributeType=\"" + type +
-         "\" Center=\"Node\">" + item + "</Attribute>\n";
-}
+/// Fields of one kind: on points and nodes, or on cells.
+struct Centring {
+  std::string name, rows, root;  ///< as XDMF calls it; how many; where the arrays are
+
+  std::string attribute(const std::string& field, const std::string& type,
+                        const std::string& item) const {
+    return "        <Attribute Name=\"" + xml(field) + "\" AttributeType=\"" + type +
+           "\" Center=\"" + name + "\">" + item + "</Attribute>\n";
+  }
+};
 
 /// Column k of an array as a scalar: readers disagree about arrays that are no vector and no
 /// tensor.
@@ -53,18 +59,17 @@ std::string column(int k, const std::string& points, const std::string& whole) {
          std::to_string(k) + " 1 1 " + points + " 1</DataItem>" + whole + "</DataItem>";
 }
 
-std::string field_attributes(const FieldArray& field, const std::string& points,
-                             const std::string& path) {
+std::string field_attributes(const FieldArray& field, const Centring& at) {
   const std::string sizes =
-      field.components == 1 ? points : points + " " + std::to_string(field.components);
-  const std::string item = data_item("Float", 8, sizes, path);
+      field.components == 1 ? at.rows : at.rows + " " + std::to_string(field.components);
+  const std::string item = data_item("Float", 8, sizes, at.root + field.name);
   switch (field.components) {
     case 1:
-      return attribute(field.name, "Scalar", item);
+      return at.attribute(field.name, "Scalar", item);
     case 3:
-      return attribute(field.name, "Vector", item);
+      return at.attribute(field.name, "Vector", item);
     case 9:
-      return attribute(field.name, "Tensor", item);
+      return at.attribute(field.name, "Tensor", item);
     default:
       break;
   }
@@ -73,25 +78,36 @@ std::string field_attributes(const FieldArray& field, const std::string& points,
     const auto index = static_cast<std::size_t>(k);
     const auto& names = field.component_names;
     const std::string name = index < names.size() ? names[index] : std::to_string(k);
-    result += attribute(field.name + "_" + name, "Scalar", column(k, points, item));
+    result += at.attribute(field.name + "_" + name, "Scalar", column(k, at.rows, item));
   }
   return result;
 }
 
+/// The cells are spelt out because only some readers number the points of a Polyvertex themselves.
+std::string topology(const BodyFrame& body, const std::string& root) {
+  const std::string cells = std::to_string(body.points);
+  if (!body.mesh)
+    return "<Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"" +
+           cells + "\">" + data_item("Int", 8, cells, root + "cells");
+  const std::string kind = body.mesh->corners == 8 ? "Hexahedron" : "Quadrilateral";
+  return "<Topology TopologyType=\"" + kind + "\" NumberOfElements=\"" + cells + "\">" +
+         data_item("Int", 8, cells + " " + std::to_string(body.mesh->corners),
+                   root + "connectivity");
+}
+
 std::string body_grid(const BodyFrame& body, const std::string& file) {
-  const std::string points = std::to_string(body.points);
   const std::string root = file + ":/" + body.body + "/";
-  // The cells are spelt out because only some readers number the points of a Polyvertex themselves.
+  const Centring points{body.mesh ? "Cell" : "Node", std::to_string(body.points), root};
+  const Centring corners =
+      body.mesh ? Centring{"Node", std::to_string(body.mesh->nodes), root + "nodes/"} : points;
   std::string result =
-      "      <Grid Name=\"" + xml(body.body) + "\" GridType=\"Uniform\">\n" +
-      "        <Topology TopologyType=\"Polyvertex\" NodesPerElement=\"1\" " +
-      "NumberOfElements=\"" + points + "\">" + data_item("Int", 8, points, root + "cells") +
-      "</Topology>\n" + "        <Geometry GeometryType=\"XYZ\">" +
-      data_item("Float", 8, points + " 3", root + "coordinates") + "</Geometry>\n" +
-      attribute("id", "Scalar", data_item("Int", 8, points, root + "id"));
-  for (const auto& field : body.fields) {
-    result += field_attributes(field, points, root + field.name);
-  }
+      "      <Grid Name=\"" + xml(body.body) + "\" GridType=\"Uniform\">\n        " +
+      topology(body, root) + "</Topology>\n" + "        <Geometry GeometryType=\"XYZ\">" +
+      data_item("Float", 8, corners.rows + " 3", corners.root + "coordinates") + "</Geometry>\n" +
+      points.attribute("id", "Scalar", data_item("Int", 8, points.rows, root + "id"));
+  for (const auto& field : body.fields) result += field_attributes(field, points);
+  if (body.mesh)
+    for (const auto& field : body.mesh->fields) result += field_attributes(field, corners);
   return result + "      </Grid>\n";
 }
 

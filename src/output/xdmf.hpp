@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file output/xdmf.hpp
-/// XDMF 3 description of the frames: a temporal collection of frames, in each one Polyvertex grid
-/// per body. Paths are relative to the folder of frames.xmf.
+/// XDMF 3 description of the frames: a temporal collection of frames, in each one grid
+/// per body: Polyvertex, or the cells of its mesh, with the fields of its points at the cells.
+/// Paths are relative to the folder of frames.xmf.
 #include <string>
 #include <string_view>
 #include <vector>

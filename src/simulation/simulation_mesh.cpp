@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies of elements in a simulation.
+#include <algorithm>
 #include <cmath>
 
 #include "krater/core/errors.hpp"
@@ -52,8 +53,7 @@ void Simulation::place_meshes() {
       for (std::size_t a = 0; a < 3; ++a)
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);
-      if (scene_.contact.active)
-        mesh_->set_contact(scene_.grid.cell, scene_.contact, impulses_);
+      if (scene_.contact.active) mesh_->set_contact(scene_.grid.cell, scene_.contact, impulses_);
     }
     const MaterialPlan plan = material_plan(body.material());
     ElementBody made{.body = static_cast<int>(b),
@@ -71,7 +71,16 @@ void Simulation::place_meshes() {
     made.velocities = velocities_of(body.options(), made.mesh);
     mesh_->add(std::move(made));
   }
-  if (mesh_) mesh_->start();
+  if (!mesh_) return;
+  mesh_->start();
+  health_ = mesh_->health();
+}
+
+void Simulation::look_at_elements() {
+  if (!mesh_) return;
+  health_ = mesh_->health();
+  audit_.most_folded = std::max(audit_.most_folded, static_cast<double>(health_.folded));
+  watch_elements(*this, warnings_);
 }
 
 Totals Simulation::totals_of_mesh(int s) const {

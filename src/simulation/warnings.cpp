@@ -15,6 +15,9 @@ namespace krater {
 namespace {
 
 constexpr double kEnergyError = 0.01;  // of the energy in the scene
+constexpr double kHourglass = 0.1;     // of the internal energy: the common rule
+constexpr double kHeld = 0.01;         // of the elements, more than half of whose energy it is
+constexpr double kNoticed = 0.01;      // of the energy in the scene: below it no share means much
 
 void watch_energy(const Simulation& sim, Warnings& warnings) {
   const Audit& a = sim.audit();
@@ -135,6 +138,28 @@ void watch(const Simulation& sim, Warnings& warnings) {
                    fmt::format("a compression reached the pole of the linear Hugoniot {:.0f} times",
                                a.hugoniot_poles));
   watch_energy(sim, warnings);
+}
+
+void watch_elements(const Simulation& sim, Warnings& warnings) {
+  const MeshHealth& mesh = sim.elements();
+  const double most = sim.audit().most_folded, elements = static_cast<double>(mesh.elements);
+  if (mesh.folded > 0)
+    warnings.count("folded_elements", most, sim.time(),
+                   fmt::format("up to {:.0f} of {:.0f} elements were folded, a corner inside out: "
+                               "they run on, but their shape is none that matter can have",
+                               most, elements));
+  if (!(mesh.internal > kNoticed * sim.audit().peak_energy)) return;
+  if (mesh.hourglass_share() > kHourglass)
+    warnings.add("hourglass_energy", sim.time(),
+                 fmt::format("the hourglass holds {:.3g} % of the internal energy, and a tenth is "
+                             "much: smaller elements tell whether the answer stands",
+                             100 * mesh.hourglass_share()));
+  const double held = static_cast<double>(mesh.held);
+  if (held > kHeld * elements)
+    warnings.add("hourglass_elements", sim.time(),
+                 fmt::format("in {:.0f} of {:.0f} elements the hourglass is more than half of the "
+                             "internal energy: there the mesh is too coarse for what happens",
+                             held, elements));
 }
 
 }  // namespace krater

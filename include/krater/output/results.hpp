@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,6 +40,15 @@ struct FieldArray {
   Rows<double> values;
 };
 
+/// The mesh whose cells the points of a body stand for, one point per cell and in its order.
+struct FrameMesh {
+  std::size_t nodes = 0;
+  int corners = 8;                  ///< 8: hexahedra; 4: quadrilaterals
+  Rows<std::int64_t> connectivity;  ///< nodes of a cell: bottom counter-clockwise, then the top
+  Rows<double> coordinates;         ///< 3 per node, as those of the points
+  std::vector<FieldArray> fields;   ///< a row per node
+};
+
 struct BodyFrame {
   std::string body;
   std::size_t points = 0;
@@ -46,6 +56,7 @@ struct BodyFrame {
   Rows<double>
       coordinates;  ///< 3 per point (x, y, z); axisymmetric (r, 0, z), plane strain (x, 0, z)
   std::vector<FieldArray> fields;
+  std::optional<FrameMesh> mesh{};
 };
 
 struct OutputFrame {

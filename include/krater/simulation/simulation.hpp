@@ -76,6 +76,9 @@ class Simulation {
   /// Throws NumericalError when more energy is unphysical than the scene allows. `last`: the run
   /// ends.
   void judge_energy(bool last) const;
+  /// How the elements are, for a row of the history: what is said of it too.
+  void look_at_elements();
+  const MeshHealth& elements() const { return health_; }  ///< as last looked at
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
@@ -149,6 +152,7 @@ class Simulation {
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;
+  MeshHealth health_;
   StepClock clock_;
   TimeStepLimit limit_;  ///< of the next step
   bool broken_ = false;

@@ -49,5 +49,7 @@ std::string sentence(const Warning& warning);
 
 /// What the audit of a simulation says by now; called after every step.
 void watch(const Simulation& sim, Warnings& warnings);
+/// What the elements say, as last looked at: folded ones, and energy that only holds hourglasses.
+void watch_elements(const Simulation& sim, Warnings& warnings);
 
 }  // namespace krater

@@ -304,6 +304,9 @@ PointSet MeshStep::set(int s) const {
   return {b.made_of.body, &b.elements};
 }
 PointStore& MeshStep::change(int s) { return bodies_[static_cast<std::size_t>(s)]->elements; }
+const Mesh& MeshStep::mesh(int s) const {
+  return bodies_[static_cast<std::size_t>(s)]->made_of.mesh;
+}
 std::size_t MeshStep::node_count(int s) const {
   return bodies_[static_cast<std::size_t>(s)]->node_count;
 }

@@ -7,6 +7,7 @@
 
 #include "krater/kinematics/mesh/hourglass.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
+#include "krater/kinematics/mesh/mesh_health.hpp"
 
 namespace {
 
@@ -160,6 +161,33 @@ TEST_SUITE("unit") {
             CHECK(bending_stiffness(half, k, mode, mu, nu) ==
                   doctest::Approx(E * V / (3 * half[k] * half[k])).epsilon(1e-12));
     }
+  }
+
+  TEST_CASE("meshes: a corner that is pushed through its element is seen") {
+    const auto corners = [](int dim) {
+      std::vector<Triple> x;
+      for (int I = 0; I < corner_nodes(dim); ++I)
+        x.push_back({corner_sign(dim, I, 0), 3 * corner_sign(dim, I, 1),
+                     dim == 3 ? 0.5 * corner_sign(dim, I, 2) : 0});
+      return x;
+    };
+    for (const int dim : {2, 3})
+      for (std::size_t I = 0; I < corners(dim).size(); ++I) {
+        std::vector<Triple> x = corners(dim);
+        for (Triple& p : x) p[0] += 0.7 * p[1];  // a parallelepiped
+        CHECK(least_corner(dim, x) == doctest::Approx(1).epsilon(1e-14));
+        const auto pushed = [&](double share) {
+          std::vector<Triple> y = x;
+          for (std::size_t a = 0; a < 3; ++a) y[I][a] *= 1 - share;
+          return least_corner(dim, y);
+        };
+        // Beyond the middle of the corners beside it: the centre, or a third of the way out.
+        const double flat = dim == 2 ? 1 : 2.0 / 3;
+        CHECK(pushed(0.9 * flat) > 0);
+        CHECK(pushed(1.1 * flat) < 0);
+        for (Triple& p : x) std::swap(p[0], p[1]);
+        CHECK(least_corner(dim, x) == doctest::Approx(-1).epsilon(1e-14));
+      }
   }
 
   TEST_CASE("meshes: a block's corners sum to its volume and keep its centre") {

@@ -28,6 +28,37 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_SUITE("unit") {
+  TEST_CASE("frames: a mesh is written as cells, with fields at cells and at nodes") {
+    const TemporaryFolder folder;
+    OutputFrame frame = small_frame(0, 0);
+    frame.bodies.front().mesh = FrameMesh{
+        .nodes = 6,
+        .corners = 4,
+        .connectivity = rows_of<std::int64_t>({0, 1, 4, 3, 1, 2, 5, 4}, 4),
+        .coordinates = rows_of<double>({0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 1, 1, 0, 1, 2, 0, 1}, 3),
+        .fields = {{"mass", "kg", "mass", 1, {}, rows_of<double>({1, 2, 3, 4, 5, 6})}}};
+    ResultsFolder results(folder / "run");
+    results.write_frame(frame);
+    results.wait();
+    const auto file = open_file(folder / "run/frames.h5");
+    const std::string rod = "frames/000000/rod/";
+    CHECK(file.open_dataset(rod + "connectivity").read<std::int64_t>() ==
+          std::vector<std::int64_t>{0, 1, 4, 3, 1, 2, 5, 4});
+    CHECK(file.open_dataset(rod + "nodes/coordinates").read<double>()[15] == 2);
+    CHECK(file.open_dataset(rod + "nodes/mass").read<double>() ==
+          std::vector<double>{1, 2, 3, 4, 5, 6});
+    const std::string xmf = read_file(folder / "run/frames.xmf");
+    CHECK(occurrences(xmf, "TopologyType=\"Quadrilateral\" NumberOfElements=\"2\"") == 1);
+    CHECK(occurrences(xmf, "Polyvertex") == 0);
+    CHECK(occurrences(xmf, "Dimensions=\"6 3\">frames/000000.h5:/rod/nodes/coordinates") == 1);
+    CHECK(occurrences(xmf, "Name=\"mass\" AttributeType=\"Scalar\" Center=\"Node\"") == 1);
+    CHECK(occurrences(xmf, "Name=\"pressure\" AttributeType=\"Scalar\" Center=\"Cell\"") == 1);
+    frame.bodies.front().mesh->corners = 6;
+    CHECK(message_of<std::invalid_argument>([&] {
+            results.write_frame(frame);
+          }).find("cells of no known kind") != std::string::npos);
+  }
+
   TEST_CASE("frames: values, units and components are found through frames.h5") {
     const TemporaryFolder folder;
     ResultsFolder results(folder / "run");

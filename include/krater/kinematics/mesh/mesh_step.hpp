@@ -21,6 +21,7 @@
 #include "krater/kinematics/kinematics.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
 #include "krater/kinematics/mesh/mesh_contact.hpp"
+#include "krater/kinematics/mesh/mesh_health.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
 
 namespace krater {
@@ -93,7 +94,9 @@ class MeshStep final : public Kinematics {
   void pad(int s);                  ///< after columns were changed from outside
   std::size_t memory() const;       ///< of nodes and elements [bytes]
   double hourglass_energy() const;  ///< part of the internal energy [J]
-  struct Elements;                  ///< of one body
+  MeshHealth health() const;
+  struct Elements;                ///< of one body
+  const Mesh& mesh(int s) const;  ///< as it was at the start; its nodes move
   std::size_t node_count(int s) const;
   Triple position(int s, std::size_t node) const;
   Triple velocity(int s, std::size_t node) const;
