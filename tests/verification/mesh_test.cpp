@@ -170,7 +170,7 @@ TEST_SUITE("verification") {
       const double w = std::acos((after + before) / (2 * now)) / taken;
       const double exact = 2 / taken * std::asin(c * taken / l * std::sin(k * l / 2));
       CAPTURE(mode);
-      CHECK(w == doctest::Approx(exact).epsilon(1e-5));
+      CHECK(w == doctest::Approx(exact).epsilon(1e-6));
     }
   }
 
