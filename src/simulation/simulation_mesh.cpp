@@ -52,8 +52,7 @@ void Simulation::place_meshes() {
       for (std::size_t a = 0; a < 3; ++a)
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);
-      if (scene_.contact.active)
-        mesh_->set_contact(scene_.grid.cell, scene_.contact, impulses_);
+      if (scene_.contact.active) mesh_->set_contact(scene_.grid.cell, scene_.contact, impulses_);
     }
     const MaterialPlan plan = material_plan(body.material());
     ElementBody made{.body = static_cast<int>(b),
