@@ -199,7 +199,8 @@ def fates():
     check(kind.bracket(rows) == (200, 300), "fastest that was stopped, slowest that perforated", kind.bracket(rows))
     check(kind.bracket([*rows, shot(350, "stopped")]) == (200, 300), "not one that was stopped above it")
     check(kind.bracket([*rows, shot(250, "ricocheted")]) == (250, 300), "a ricochet did not perforate")
-    check(kind.bracket(rows[:2]) == (200, None) and kind.bracket(rows[2:]) == (None, 300), "one end alone is no bracket")
+    check(kind.bracket(rows[:2]) == (200, None) and kind.bracket(rows[2:]) == (None, 300),
+          "one end alone is no bracket")
 
 
 def queue():
