@@ -118,6 +118,8 @@ FIGURES = {
                                 f"{1 - number(r.cell('^the same, 100', 'found')):.2g}, to the exact"),
     "copper_bar": lambda r: r.finest("foot radius (five codes 7.22)", "foot radius mm", "^R/h = 32", "^R/h = 16"),
     "energy": lambda r: Figure("e behind shocks of 1 to 6 km/s, worst at 200 cells", f"{worst(r, '^e, 200'):.2f} %"),
+    "fronts": lambda r: Figure("W of Taylor copper to 1 %: core time, cheapest setting",
+                               r.cell("^w diameter", "^1 %").split(":")[0]),
     "hiermaier_al": lambda r: r.finest("hole (experiment 31.0 mm)", "hole mm", "^40 cells", "^20 cells"),
     "manufactured": lambda r: Figure("error of the bar, G = 0.05, 128 cells, gimp (order)",
                                      r.tables[1].at("^gimp, tflip", "N = 128") + " m"),

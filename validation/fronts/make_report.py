@@ -14,6 +14,7 @@ import sys
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
 from validate_runs import Study, digest  # noqa: E402
@@ -60,7 +61,8 @@ def prices(study, told):
         cells = [name.replace("_", " ")]
         for target in TARGETS:
             found = cheapest(cloud, target)
-            cells.append("-" if found is None else f"{found[0]:.2g} s: {varied(told, cloud['labels'][found[1]])}")
+            told_as = "-" if found is None else f"{found[0]:.2g} s: {varied(told, cloud['labels'][found[1]])}"
+            cells.append(told_as)
         rows.append(cells)
     study.add(f"### {told['title']}",
               f"{len(told['members'])} members. Core-seconds of the cheapest setting for an error:")
@@ -104,6 +106,9 @@ def draw(path, all_told):
                       lw=1, color=f"C{k}", label=name.replace("_", " "))
         ax.set_title(told["title"], fontsize=8)
         ax.set_xlabel("core-seconds")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
         ax.legend(fontsize=6, frameon=False)
     axes[0].set_ylabel("error [%]")
     figure.tight_layout()
