@@ -22,6 +22,7 @@ from validate_runs import Study, digest  # noqa: E402
 ESTIMATED_SECONDS = 120  # on two quiet cores
 PROBLEMS = ("taylor_copper", "copper_bar", "plate_impact", "two_bars")
 TARGETS = (5.0, 2.0, 1.0, 0.5)  # %
+CELL = "grid.cell"
 
 
 def answer(study, name):
@@ -48,10 +49,20 @@ def varied(told, label):
     return ", ".join(f"{path.rsplit('.', 1)[-1]} {value}" for path, value in settings_of(told, label).items())
 
 
-def cheapest(cloud, target):
-    """(cost, index) of the cheapest member that is as near."""
-    near = [(cost, i) for i, (cost, error) in enumerate(zip(cloud["cost"], cloud["error"])) if error <= target]
-    return min(near) if near else None
+def others(told, label):
+    """Settings but for the cell, and the cell [m or mm: one unit in a study]."""
+    settings = settings_of(told, label)
+    return tuple(sorted(item for item in settings.items() if item[0] != CELL)), float(settings[CELL].split()[0])
+
+
+def cheapest(told, cloud, target):
+    """(cost, index) of the cheapest member that is as near, and stays so with every finer cell: a coarse cell that hits
+    by luck is no price."""
+    where = [others(told, label) for label in cloud["labels"]]
+    steady = [(cloud["cost"][i], i) for i, (rest, cell) in enumerate(where)
+              if all(error <= target for (same, finer), error in zip(where, cloud["error"])
+                     if same == rest and finer <= cell)]
+    return min(steady) if steady else None
 
 
 def prices(study, told):
@@ -60,13 +71,15 @@ def prices(study, told):
     for name, cloud in told["answer"]["measures"].items():
         cells = [name.replace("_", " ")]
         for target in TARGETS:
-            found = cheapest(cloud, target)
+            found = cheapest(told, cloud, target)
             told_as = "-" if found is None else f"{found[0]:.2g} s: {varied(told, cloud['labels'][found[1]])}"
             cells.append(told_as)
         rows.append(cells)
     study.add(f"### {told['title']}",
-              f"{len(told['members'])} members. Core-seconds of the cheapest setting for an error:")
+              f"{len(told['members'])} members. Core-seconds of the cheapest setting that is as "
+              "near, with all finer cells:")
     study.add_table(["measure", *(f"{target:g} %" for target in TARGETS)], rows)
+    study.add(*(line for line in told["sentences"] if line.startswith("Member")))
 
 
 def wins(told):
@@ -85,7 +98,7 @@ def dominated(study, all_told):
     rows, never = [], []
     for told in all_told:
         for (path, value), (on, all_of) in wins(told).items():
-            if path == "grid.cell":
+            if path == CELL:
                 continue
             rows.append([told["title"], f"`{path.split('.', 1)[-1]}: {value}`", f"{on} of {all_of}"])
             if on == 0:
