@@ -136,7 +136,8 @@ KRATER_FORCE_INLINE Pack viscous_length(const ElementGeometry<Pack, Frame>& e,
 }
 
 /// The step of an element in its stiffest motion, of frequency 2 c_L/l, damped by xi = Q/c_L:
-///   dt = l/(Q + sqrt(Q^2 + c_L^2)),   Q = L/l (q_lin c + 2 q_quad L |tr D|),  L: that of viscosity.
+///   dt = l/(Q + sqrt(Q^2 + c_L^2)),   Q = L/l (q_lin c + 2 q_quad L |tr D|),
+/// L the length of the viscosity.
 template <class Frame, Holding Kind>
 void find_forces(const ElementData& d, int first, int last, ElementResult& out) {
   constexpr int D = Frame::dim, N = corner_nodes(D);
