@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // DIR/influence.tsv, as `krater study` of kind ablation writes it (tools/krater_study/results.py):
-//   # scene taylor.yaml 0.000381
+//   # scene NAME 0.000381
 //   materials.copper.heating <tab> 1.2 <tab> foot_diameter <tab> keep
 // paths that were changed together, joined by blanks; the greatest change in %, or `all` of a
 // measure that has no value then; of which measure; advice.

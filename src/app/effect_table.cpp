@@ -30,7 +30,7 @@ void add_rows(const EffectReport& report, int material, std::vector<std::string>
       lines.push_back(line(fmt::format("  {}: {}", e.name(), e.on() ? e.law : "off"),
                            e.on() ? e.where : "-", number(e.bytes, 0), number(e.nanoseconds, 1),
                            e.influence.empty() ? "-" : e.influence, e.word.empty() ? "-" : e.word));
-    else if (e.kind != EffectKind::model && e.kind != EffectKind::rate)
+    else if (e.kind != EffectKind::rate)
       off += fmt::format("{}{}", off.empty() ? "" : ", ", e.name());
   }
   if (!off.empty()) lines.push_back("  off: " + off);

@@ -60,6 +60,12 @@ Effect effect_of(const MaterialOptions& m, int index, EffectKind kind) {
   return out;
 }
 
+/// A coupled model stands for these.
+bool in_model(EffectKind kind) {
+  return kind == EffectKind::strength || kind == EffectKind::eos || kind == EffectKind::damage ||
+         kind == EffectKind::spall;
+}
+
 /// The first body of a material that deforms; -1: none.
 int body_of(const Scene& scene, int material) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
@@ -124,8 +130,10 @@ std::vector<Effect> effects_of(const Scene& scene) {
   std::vector<Effect> out;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (body_of(scene, static_cast<int>(m)) < 0) continue;
+    const MaterialOptions& material = scene.materials[m];
     for (const EffectKind kind : kOfMaterial)
-      out.push_back(effect_of(scene.materials[m], static_cast<int>(m), kind));
+      if (!(material.model ? in_model(kind) : kind == EffectKind::model))
+        out.push_back(effect_of(material, static_cast<int>(m), kind));
   }
   Effect contact{.kind = EffectKind::contact, .key = "contact"};
   if (scene.contact.active) {

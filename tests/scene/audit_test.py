@@ -16,6 +16,8 @@ SCHEMES = {
     "flip, musl": (["method.transfer=flip", "method.update=musl"], 0.02, CLOSED),
     "flip, usf": (["method.transfer=flip", "method.update=usf"], 0.02, CLOSED),
     "apic, musl": (["method.transfer=apic", "method.update=musl"], 0.05, CLOSED),
+    "alpha 0": (["method.energy_alpha=0"], 0.01, CLOSED),  # of Algorithm 1: the ledger closes whatever it is
+    "alpha 1": (["method.energy_alpha=1"], 0.01, CLOSED),
     "flip, no cell averages": (["method.transfer=flip", "method.cell_averaging=false"], 0.03, CLOSED),
 }
 
@@ -46,6 +48,8 @@ def audit(name, values, most, momentum):
 with Folder():
     for scheme, (settings, most, momentum) in SCHEMES.items():
         audit(scheme, VALUES + settings, most, momentum)
+    found = [summary(name)["measures"]["final_length"]["value"] for name in ("alpha 0", "tflip (default)", "alpha 1")]
+    check(len(set(found)) == 3 and max(found) - min(found) < 1e-3 * found[1], "alpha is felt, but little", found)
     space = ["frame=3d", "grid.cell=0.762 mm", "time.end=3 us", "output.frames=0", "method.transfer=flip"]
     audit("3d flip", space, 0.03, CLOSED)
     across = history("3d flip")

@@ -83,7 +83,8 @@ def influence():
            "materials.copper.eos materials.steel.eos\t0.3\tfinal_length\tcould go\n"
     pathlib.Path("abl/influence.tsv").write_text(text, encoding="utf-8")
     said = krater("check", "slow.yaml").stdout
-    check(re.search(r"damage: maximum_plastic_strain .* 1.2 % of final_length +", said), "the last ablation is told", said)
+    check(re.search(r"damage: maximum_plastic_strain .* 1.2 % of final_length +", said),
+          "the last ablation is told", said)
     check(re.search(r"eos: .* 0.3 % of final_length, with others +could go$", said, re.MULTILINE),
           "what it says is the advice", said)
     coarse = krater("check", "slow.yaml", "--set", "grid.cell=1.5 mm").stdout

@@ -211,8 +211,8 @@ def main():
                                        "[0, 33 mm]}}}\nmeasures:").replace("max: [12 mm, 35.2 mm]", "max: [12 mm, 40 mm]")
         bar.write_text(two, encoding="utf-8")
         done = run("refused", scene=bar)
-        check(done.returncode == 2 and "does not meet other bodies yet" in done.text and "bar.yaml:" in done.text,
-              "refused: two bodies", done.text)
+        check(done.returncode == 2 and "does not meet bodies of points yet" in done.text and "bar.yaml:" in done.text,
+              "refused: elements and points in one scene", done.text)
     finish()
 
 

@@ -70,8 +70,8 @@ def missing_sentences(rows, measures):
         without = [row.member.name for row in done if row.measure(name) is None]
         if 0 < len(without) < len(done):
             listed = ", ".join(without[:5]) + (", ..." if len(without) > 5 else "")
-            yield (f"{name} has no value in {len(without)} of {len(done)} members ({listed}): they are left out of what is "
-                   f"said of it, and a refinement says no error of it.")
+            yield (f"{name} has no value in {len(without)} of {len(done)} members ({listed}): they are left out of "
+                   f"what is said of it, and a refinement says no error of it.")
 
 
 def reference_of(study, rows, name):

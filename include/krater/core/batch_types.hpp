@@ -55,6 +55,8 @@ struct BatchData {
   /// alone; none where a ledger has booked it (kinematics/mpm/ledger.hpp). The energy then is that
   /// of the middle of the step, half a step behind the pressure.
   double energy_share = 1;
+  /// alpha of Algorithm 1 (materials/stages/eos_stage.hpp): share of the pressure of the start.
+  double energy_alpha = 0.5;
 };
 
 }  // namespace krater

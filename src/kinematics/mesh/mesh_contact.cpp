@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::size_t kRecord = 8, kMass = 3, kVelocity = 4, kHeat = 7, kChange = 4;
 constexpr int kPasses = 3;
-constexpr double kAway = -0.5;       // N . n of what looks away
-constexpr double kTakenBack = 0.1;   // share of an overlap, per step
-constexpr double kNoFaster = 0.05;   // than this share of the approach, or ...
-constexpr double kCreep = 5e-4;      // ... cells per step
-constexpr double kNoNormal = 1e-6;   // of the longest that there could be
-constexpr double kReach = 3;         // cells: bodies further apart cannot meet in a step
+constexpr double kAway = -0.5;      // N . n of what looks away
+constexpr double kTakenBack = 0.1;  // share of an overlap, per step
+constexpr double kNoFaster = 0.05;  // than this share of the approach, or ...
+constexpr double kCreep = 5e-4;     // ... cells per step
+constexpr double kNoNormal = 1e-6;  // of the longest that there could be
+constexpr double kReach = 3;        // cells: bodies further apart cannot meet in a step
 
 double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 void add_to(Triple& sum, double k, const Triple& x) {
@@ -187,8 +187,8 @@ void MeshContact::number_nodes() {
   for (Carrier& q : carriers_) {
     std::size_t n = 0;
     visit_keys(q, [&](const Key& key) {
-      q.at[n++] = static_cast<std::int32_t>(std::lower_bound(keys.begin(), keys.end(), key) -
-                                            keys.begin());
+      q.at[n++] =
+          static_cast<std::int32_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
     });
   }
 }
@@ -275,8 +275,10 @@ void MeshContact::weigh() {
   for (Meeting& m : meetings_) {
     m.gap = 0;
     for (std::size_t s = 0; s < 2; ++s) {
-      if (!(m.side[s].weight > 0)) m.side[s].mass = 0;  // nothing of it looks across
-      else m.gap += (s == 0 ? -1 : 1) * dot(m.side[s].place, m.normal) / m.side[s].weight;
+      if (!(m.side[s].weight > 0))
+        m.side[s].mass = 0;  // nothing of it looks across
+      else
+        m.gap += (s == 0 ? -1 : 1) * dot(m.side[s].place, m.normal) / m.side[s].weight;
     }
   }
 }
@@ -325,8 +327,7 @@ void MeshContact::exchange(Meeting& m, double mu, double dt) {
   add_to(m.impulse, 1, impulse);
 }
 
-double MeshContact::friction_between(const std::vector<MeshNodes>& bodies,
-                                     const Meeting& m) const {
+double MeshContact::friction_between(const std::vector<MeshNodes>& bodies, const Meeting& m) const {
   return options_.friction_of(bodies[m.side[0].body].body, bodies[m.side[1].body].body);
 }
 
@@ -342,14 +343,14 @@ void MeshContact::pass(const std::vector<MeshNodes>& bodies, double dt) {
       for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
         p[a] += q.share[I] * (v[a] + change[a]);
     }
-    for_each_meeting(
-        q, [&](Meeting&, Side& side, double S, double) { add_to(side.momentum, S, p); });
+    for_each_meeting(q,
+                     [&](Meeting&, Side& side, double S, double) { add_to(side.momentum, S, p); });
   }
   for (Meeting& m : meetings_) exchange(m, friction_between(bodies, m), dt);
   for (const Carrier& q : carriers_) {
     Triple dv{};
-    for_each_meeting(q,
-                     [&](Meeting&, const Side& side, double S, double) { add_to(dv, S, side.change); });
+    for_each_meeting(
+        q, [&](Meeting&, const Side& side, double S, double) { add_to(dv, S, side.change); });
     for (std::size_t I = 0; I < q.corners; ++I) {
       const auto n = static_cast<std::size_t>(q.nodes[I]);
       const double part = q.share[I] / bodies[q.body].records[kRecord * n + kMass];

@@ -157,6 +157,7 @@ SweepSettings MpmStep::settings(double dt) const {
   s.gamma = cell_alpha_of(method_) - std::min(cell_alpha_of(method_), s.alpha);
   s.moments = cell_alpha_of(method_) < 1;
   s.average_cells = method_.cell_averaging;
+  s.energy_alpha = method_.energy_alpha;
   s.pressure_nodes = pressure_nodes_.data();
   for (int a = 0; a < grid_.geometry().dimension; ++a) {
     s.first[static_cast<unsigned>(a)] = boundary_.last_storage(a, 0);

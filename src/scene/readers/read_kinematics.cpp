@@ -108,6 +108,8 @@ void check_alone(const Node& place, Reading& reading) {
     fail("knows the current configuration only: leave out method.reference");
   if (scene.body_force || scene.loads.any())
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
+  if (scene.method.energy_alpha != 0.5)
+    fail("takes Algorithm 1 with alpha 1/2 only: leave out method.energy_alpha");
   if (!scene.detonators.empty()) fail("is not lit by detonators yet; use kinematics: mpm");
   for (const MeasureOptions& measure : scene.measures)
     if (std::any_of(measure.by.begin(), measure.by.end(),

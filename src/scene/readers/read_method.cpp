@@ -30,6 +30,10 @@ constexpr ParameterInfo kFlip{
     "flip_fraction", "1", Range::fraction, 0.99,
     "part of the residual of a point's own velocity kept in a step (tflip)"};
 
+constexpr ParameterInfo kEnergyAlpha{"energy_alpha", "1", Range::fraction, 0.5,
+                                     "alpha of Algorithm 1: share of the pressure of the start in "
+                                     "the energy that gives the new one"};
+
 constexpr ParameterInfo kStrain{
     "strain", "1", Range::positive, 0.3,
     "largest Green-Lagrange strain before the current configuration becomes the reference"};
@@ -159,6 +163,7 @@ Node read_method(const Node* node, Reading& reading) {
       {{"fluids", GridPressure::fluids}, {"none", GridPressure::none}, {"all", GridPressure::all}},
       method.grid_pressure);
   method.flip_fraction = block.number(kFlip);
+  method.energy_alpha = block.number(kEnergyAlpha);
   method.dormant_blocks = block.flag("dormant_blocks", method.dormant_blocks);
   return block.finish();
 }

@@ -134,4 +134,19 @@ TEST_SUITE("unit") {
     // Trapezoid there and back over the same volumes: the energy returns to round-off.
     CHECK(std::fabs(march(20, true)) < 1e-11 * e);
   }
+
+  TEST_CASE("alpha of Algorithm 1: the pressures of start and end do their shares of the work") {
+    const auto law = shock(8930.0, 3940.0, 1.489, 2.02);
+    const double v0 = 1.0 / law.rho0, v1 = 0.9 * v0, p = 3e9, e = 1e4, dv = v1 - v0;
+    const auto split = law.split(1.0 / v1, v1);
+    for (const double alpha : {0.0, 0.5, 1.0}) {
+      const auto step = close_energy(split, p, e, VolumeChange<double>{dv, alpha}, 50.0);
+      const double work = -(alpha * p + (1.0 - alpha) * step.pressure) * dv;
+      CHECK(step.energy == doctest::Approx(e + 50.0 + work).epsilon(1e-13));
+      // Of the energy that it takes for the end's; explicit where alpha is 1.
+      CHECK(step.pressure == doctest::Approx(pressure(law, 1.0 / v1, step.energy)).epsilon(1e-12));
+    }
+    const auto half = close_energy(split, p, e, dv, 50.0);
+    CHECK(half.pressure == close_energy(split, p, e, VolumeChange<double>{dv, 0.5}, 50.0).pressure);
+  }
 }

@@ -25,8 +25,8 @@
 #include <utility>
 #include <vector>
 
-#include "krater/contact/options.hpp"
 #include "krater/contact/impulses.hpp"
+#include "krater/contact/options.hpp"
 #include "krater/geometry/frame.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
 
@@ -128,8 +128,8 @@ class MeshContact {
   // Of the step:
   std::vector<Carrier> carriers_;
   std::size_t grid_nodes_ = 0;
-  std::vector<Presence> present_;           ///< per node of the grid and body
-  std::vector<Meeting> meetings_;           ///< in order of nodes
+  std::vector<Presence> present_;            ///< per node of the grid and body
+  std::vector<Meeting> meetings_;            ///< in order of nodes
   std::vector<std::int32_t> first_meeting_;  ///< per node of the grid, and the end
   std::vector<Touched> touched_;
   std::vector<ImpulsePair> given_;

@@ -123,6 +123,21 @@ KRATER_FORCE_INLINE void note_rate(const ElementData& d, Pack rate, int kind, in
     }
 }
 
+/// Length of the viscosity: of the whole element, that waves along a flat one see it too, but no
+/// more than twice the stable one: across a flat element its damping would else demand a step that
+/// falls with the square of the thickness.
+template <class Frame>
+KRATER_FORCE_INLINE Pack viscous_length(const ElementGeometry<Pack, Frame>& e,
+                                        const Pack (&x)[corner_nodes(Frame::dim)][Frame::dim],
+                                        Pack stable) {
+  const Pack measure = plane_measure(x, e.volume);
+  const Pack whole = Frame::dim == 3 ? measure * rcbrt(measure) * rcbrt(measure) : sqrt(measure);
+  return min(whole, 2.0 * stable);
+}
+
+/// The step of an element in its stiffest motion, of frequency 2 c_L/l, damped by xi = Q/c_L:
+///   dt = l/(Q + sqrt(Q^2 + c_L^2)),   Q = L/l (q_lin c + 2 q_quad L |tr D|),
+/// L the length of the viscosity.
 template <class Frame, Holding Kind>
 void find_forces(const ElementData& d, int first, int last, ElementResult& out) {
   constexpr int D = Frame::dim, N = corner_nodes(D);
@@ -146,9 +161,10 @@ void find_forces(const ElementData& d, int first, int last, ElementResult& out) 
     load_shares<D>(d, g, share);
     const Pack length = stable_length(e, share, rho), G = load(d.remembered + 2 * kLanes * g),
                tr_D = load(d.remembered + (2 * g + 1) * kLanes);
-    const Pack closing = max(Pack(0.0), -tr_D);
-    const Pack Qv = select(closing > Pack(0.0),
-                           fma((2.0 * d.q_quad) * length, closing, d.q_lin * c), Pack(0.0));
+    const Pack closing = max(Pack(0.0), -tr_D), viscous = viscous_length<Frame>(e, at.x, length);
+    const Pack Qv =
+        select(closing > Pack(0.0),
+               viscous / length * fma((2.0 * d.q_quad) * viscous, closing, d.q_lin * c), Pack(0.0));
     const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
     note_rate(d, (Qv + sqrt(fma(Qv, Qv, c_L_squared))) / length, 0, g, out);
     note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
@@ -182,11 +198,10 @@ KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& 
   double* record = w.local + local * d.columns.local_stride;
   store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, map.dtL);
   store(record + d.columns.local_extra, 2.0 * (ratio - 1.0) / (ratio + 1.0));
-  const Pack measure = plane_measure(at.x, after.volume);
-  store(w.length + local * kLanes,
-        D == 3 ? measure * rcbrt(measure) * rcbrt(measure) : sqrt(measure));
   Pack mass = 0.0;
   for (const Pack& m : share) mass = mass + m;
+  store(w.length + local * kLanes,
+        viscous_length<Frame>(after, at.x, stable_length(after, share, mass / after.volume)));
   for (int i = 0; i < D; ++i) {
     Pack x = 0.0, v = 0.0;
     for (int I = 0; I < N; ++I) {

@@ -127,7 +127,8 @@ KRATER_FORCE_INLINE BatchData batch_of(Patch& patch, const PointColumns& c, cons
           0,
           &patch.result.ledger,
           &patch.result.fault,
-          0};
+          0,
+          s.energy_alpha};
 }
 
 /// Debts of the points, and heat that must be taken: no more than there is. The cells' records then

@@ -45,6 +45,7 @@ struct SweepSettings {
   double dt = 0;
   double alpha = 1;            ///< share of the old velocity residual kept: FLIP 1, APIC 0
   double gamma = 0;            ///< share of its mean over the cell that is given back
+  double energy_alpha = 0.5;   ///< of the stages: BatchData
   bool moments = false;        ///< none is: the ledger takes the loss pair by pair
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18

@@ -22,6 +22,7 @@ struct MethodOptions {
   bool cell_averaging = true;  ///< theory 18
   GridPressure grid_pressure = GridPressure::fluids;
   double flip_fraction = 0.99;               ///< TFLIP alpha
+  double energy_alpha = 0.5;                 ///< Algorithm 1: share of the pressure of the start
   bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
   Reference reference = Reference::current;  ///< configuration of the weights (theory 3)
   double refresh_strain = 0.3;  ///< adaptive: largest Green-Lagrange strain before a new reference

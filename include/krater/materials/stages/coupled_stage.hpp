@@ -80,9 +80,11 @@ class CoupledStage final : public Stage {
   KRATER_FORCE_INLINE void close(const BatchData& batch, int g, const auto& update, Pack dv,
                                  Pack work) const {
     const auto p = view(batch, p_), e = view(batch, e_);
-    const Pack share = batch.energy_share, ahead = 0.5 + 0.5 * batch.energy_share;
-    const EnergyStep<Pack> step = limited(
-        close_energy(update.pressure, share * p(g), e(g), dv, ahead * work), update.least, dv);
+    const Pack share = batch.energy_share, ahead = work_share(batch);
+    const VolumeChange<Pack> change{dv, batch.energy_alpha};
+    const EnergyStep<Pack> step =
+        limited(close_energy(update.pressure, share * p(g), e(g), change, ahead * work),
+                update.least, change);
     report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
     batch.ledger->barotropic_work +=
         sum(view(batch, mass_)(g) * fnma(p(g) + step.pressure, 0.5 * dv, work));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file
-/// Pressure, internal energy and sound speed of the step: Algorithm 1, CCF (52)-(60), with
-/// alpha = beta = 1/2 in specific volume, for every p~ = A + B rho e (theory 9):
-///   e*      = e_n - p^_n dv/2 + work of viscosity and deviator in the step (SpecificWork)
-///   p~      = (A + B rho e*) / (1 + w B rho dv/2),   the sign of p~ is that of the numerator
+/// Pressure, internal energy and sound speed of the step: Algorithm 1, CCF (52)-(60), in specific
+/// volume, for every p~ = A + B rho e (theory 9), alpha + beta = 1, both 1/2 unless asked for:
+///   e*      = e_n - alpha p^_n dv + work of viscosity and deviator in the step (SpecificWork)
+///   p~      = (A + B rho e*) / (1 + beta w B rho dv),   the sign of p~ is that of the numerator
 ///   p^      = max(w p~, -spall_strength),            w = 0 in tension where the point has failed
-///   e_{n+1} = e* - p^ dv/2
+///   e_{n+1} = e* - beta p^ dv
 /// w is 1 - what damage takes of the pressure (Decision 6, stages/carried_stage.hpp); a sound
 /// material without spall strength has p^ = p~. The carried pressure does the work and enters
 /// momentum; CCF (55) as printed omits the last term.
@@ -19,8 +19,10 @@
 /// tension that is carried (strength/drucker_prager.hpp); the clipped pressure does the work.
 /// c^2 = K_s/rho, floored at 0.01 c0^2 and counted.
 /// Where a ledger books the work (BatchData::energy_share 0) e is that of t_{n+1/2}; the pressure
-/// is half a step ahead of it, e* = e + half the work of viscosity and deviator, and e stays.
+/// is beta of a step ahead of it, e* = e + beta of the work of viscosity and deviator, and e stays.
 #pragma once
+
+#include <type_traits>
 
 #include "krater/materials/batch_access.hpp"
 #include "krater/materials/eos/split.hpp"
@@ -35,14 +37,24 @@ struct EnergyStep {
   Real denominator;  ///< must exceed 1/2, or the step was far too long
 };
 
+/// alpha dv and beta dv; of a number alone half of it each.
+template <class Real>
+struct VolumeChange {
+  Real old_stress, new_stress;
+  KRATER_FORCE_INLINE VolumeChange(Real dv) : old_stress{0.5 * dv}, new_stress{old_stress} {}
+  KRATER_FORCE_INLINE VolumeChange(Real dv, double alpha)
+      : old_stress{alpha * dv}, new_stress{(1.0 - alpha) * dv} {}
+};
+template <class Real>
+using VolumeChangeOf = std::type_identity_t<VolumeChange<Real>>;  ///< lets a number stand for it
+
 template <class Real>
 KRATER_FORCE_INLINE EnergyStep<Real> close_energy(const PressureSplit<Real>& split, Real p, Real e,
-                                                  Real dv, Real work) {
-  const Real half_dv = 0.5 * dv;
-  const Real e_star = fnma(p, half_dv, e + work);
-  const Real denominator = fma(split.thermal, half_dv, Real(1.0));
+                                                  const VolumeChangeOf<Real>& dv, Real work) {
+  const Real e_star = fnma(p, dv.old_stress, e + work);
+  const Real denominator = fma(split.thermal, dv.new_stress, Real(1.0));
   const Real pressure = fma(split.thermal, e_star, split.cold) / denominator;
-  return {pressure, fnma(pressure, half_dv, e_star), denominator};
+  return {pressure, fnma(pressure, dv.new_stress, e_star), denominator};
 }
 
 /// A and B rho of the step. For a law that is not linear in e: its tangent at e_{n+1}, by Newton,
@@ -75,7 +87,8 @@ KRATER_FORCE_INLINE PressureSplit<Real> split_of_step(const Law& law, Real rho, 
 /// The step of sound material for any law. Where Newton does not converge the denominator is zero.
 template <class Law, class Real>
 KRATER_FORCE_INLINE EnergyStep<Real> advance_energy(const Law& law, Real rho, Real v, Real p,
-                                                    Real e, Real dv, Real work) {
+                                                    Real e, const VolumeChangeOf<Real>& dv,
+                                                    Real work) {
   MaskOf<Real> found;
   const auto close = [&](const PressureSplit<Real>& s) {
     return close_energy(s, p, e, dv, work).energy;
@@ -87,9 +100,10 @@ KRATER_FORCE_INLINE EnergyStep<Real> advance_energy(const Law& law, Real rho, Re
 
 /// The same step with a pressure not below `least`, which then does the work.
 template <class Real>
-KRATER_FORCE_INLINE EnergyStep<Real> limited(const EnergyStep<Real>& step, Real least, Real dv) {
+KRATER_FORCE_INLINE EnergyStep<Real> limited(const EnergyStep<Real>& step, Real least,
+                                             const VolumeChangeOf<Real>& dv) {
   const Real pressure = max(least, step.pressure);  // this order keeps a NaN
-  return {pressure, fma(step.pressure - pressure, 0.5 * dv, step.energy), step.denominator};
+  return {pressure, fma(step.pressure - pressure, dv.new_stress, step.energy), step.denominator};
 }
 
 template <class Real>
@@ -102,20 +116,26 @@ struct CarriedEnergyStep {
 /// The same with 1 - w in tension and in compression, and a cut-off (infinite: none).
 template <class Real>
 KRATER_FORCE_INLINE CarriedEnergyStep<Real> close_carried(const PressureSplit<Real>& split, Real p,
-                                                          Real e, Real dv, Real work,
-                                                          Real tension_loss, Real compression_loss,
+                                                          Real e, const VolumeChangeOf<Real>& dv,
+                                                          Real work, Real tension_loss,
+                                                          Real compression_loss,
                                                           double spall_strength) {
-  const Real half_dv = 0.5 * dv;
-  const Real e_star = fnma(p, half_dv, e + work);
+  const Real e_star = fnma(p, dv.old_stress, e + work);
   const Real numerator = fma(split.thermal, e_star, split.cold);
   const Real w = Real(1.0) - select(numerator < Real(0.0), tension_loss, compression_loss);
-  const Real denominator = fma(w * split.thermal, half_dv, Real(1.0));
+  const Real denominator = fma(w * split.thermal, dv.new_stress, Real(1.0));
   const Real effective = numerator / denominator;
   const Real carried = w * effective;
   const Real pressure = max(Real(-spall_strength), carried);  // this order keeps a NaN
-  return {{pressure, fnma(pressure, half_dv, e_star), denominator},
+  return {{pressure, fnma(pressure, dv.new_stress, e_star), denominator},
           effective,
           carried < Real(-spall_strength)};
+}
+
+/// How much of the step's work of viscosity and deviator is in e*.
+KRATER_FORCE_INLINE double work_share(const BatchData& batch) {
+  const double beta = 1.0 - batch.energy_alpha;
+  return beta + (1.0 - beta) * batch.energy_share;
 }
 
 /// `dilates`: the strength law keeps voids out of the equation of state and limits the effective
@@ -150,13 +170,14 @@ class EosStage final : public Stage {
     const auto v_p = view(batch, volumes_);
     const auto w_p = view(batch, work_);
     const Pack floor = Pack(0.01 * law_.c0 * law_.c0);
-    const Pack share = batch.energy_share, ahead = 0.5 + 0.5 * batch.energy_share;
+    const Pack share = batch.energy_share, ahead = work_share(batch);
     for (int g = 0; g < batch.groups; ++g) {
       const auto& law = state_.at(law_, batch, g);
       Pack rho = rho_p(g);
       Pack v = v_p(g, 1);
       const Pack per_rho = v;
       const Pack dv = v - v_p(g, 0);
+      const VolumeChange<Pack> change{dv, batch.energy_alpha};
       if constexpr (dilates) {
         v = v - view(batch, voids_)(g);
         rho = 1.0 / v;
@@ -164,18 +185,18 @@ class EosStage final : public Stage {
       EnergyStep<Pack> step;
       Pack effective;
       if constexpr (carries) {
-        const auto all = carried(batch, g, law, {rho, v, dv});
+        const auto all = carried(batch, g, law, {rho, v, change});
         step = all.step;
         effective = all.effective;
       } else {
-        step = advance_energy(law, rho, v, share * p_p(g), e_p(g), dv, ahead * w_p(g));
+        step = advance_energy(law, rho, v, share * p_p(g), e_p(g), change, ahead * w_p(g));
         effective = step.pressure;
       }
       if constexpr (dilates) {
         const Pack least = view(batch, tension_limit_)(g);
         Pack carried = least;
         if constexpr (carries) carried = least * (Pack(1.0) - view(batch, loss_)(g, 0));
-        step = limited(step, carried, dv);
+        step = limited(step, carried, change);
         effective = max(least, effective);
       }
       report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
@@ -202,7 +223,8 @@ class EosStage final : public Stage {
 
   /// Density and volume that the law sees, and the step's change of the latter.
   struct Volume {
-    Pack rho, v, dv;
+    Pack rho, v;
+    VolumeChange<Pack> dv;
   };
 
   /// `law`: as it is at the state of the group.
@@ -210,7 +232,7 @@ class EosStage final : public Stage {
                                                       const auto& law, const Volume& x) const {
     const auto loss = view(batch, loss_);
     const Pack p = batch.energy_share * view(batch, p_)(g), e = view(batch, e_)(g),
-               work = (0.5 + 0.5 * batch.energy_share) * view(batch, work_)(g);
+               work = work_share(batch) * view(batch, work_)(g);
     Pack tension_loss = loss(g, 0);
     if constexpr (parts) {
       const Pack failed = view(batch, failed_)(g);

@@ -1,0 +1,150 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Error against cost on four cheap problems: settings that nothing beats, that lose everywhere, what 5, 2, 1 % cost.
+
+The studies (kind `pareto`) lie beside this file. Writes README.md and fronts.png into its folder. `tools/validate
+fronts` builds first.
+"""
+
+import json
+import os
+import subprocess
+import sys
+
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter  # noqa: E402
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
+from validate_runs import Study, digest  # noqa: E402
+
+ESTIMATED_SECONDS = 120  # on two quiet cores
+PROBLEMS = ("taylor_copper", "copper_bar", "plate_impact", "two_bars")
+TARGETS = (5.0, 2.0, 1.0, 0.5)  # %
+CELL = "grid.cell"
+
+
+def answer(study, name):
+    file = os.path.join(study.folder, name + ".yaml")
+    folder = os.path.join(study.folder, "runs_out", f"{name}_{digest(study.krater, file)}")
+    done = subprocess.run([study.krater, "study", file, "-j", str(study.cores), "-o", folder, "--set",
+                           "time.energy_error=off"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                          check=False)
+    if done.returncode:
+        words = done.stderr.strip().splitlines()
+        study.failed.append((name, done.returncode, words[-1] if words else ""))
+        return None
+    with open(os.path.join(folder, "study.json"), encoding="utf-8") as written:
+        return json.load(written)
+
+
+def settings_of(told, label):
+    """{path: value} of a member."""
+    member = next(m for m in told["members"] if m["member"] == label)
+    return dict(text.split("=", 1) for text in member["settings"])
+
+
+def varied(told, label):
+    return ", ".join(f"{path.rsplit('.', 1)[-1]} {value}" for path, value in settings_of(told, label).items())
+
+
+def others(told, label):
+    """Settings but for the cell, and the cell [m or mm: one unit in a study]."""
+    settings = settings_of(told, label)
+    return tuple(sorted(item for item in settings.items() if item[0] != CELL)), float(settings[CELL].split()[0])
+
+
+def cheapest(told, cloud, target):
+    """(cost, index) of the cheapest member that is as near, and stays so with every finer cell: a coarse cell that hits
+    by luck is no price."""
+    where = [others(told, label) for label in cloud["labels"]]
+    steady = [(cloud["cost"][i], i) for i, (rest, cell) in enumerate(where)
+              if all(error <= target for (same, finer), error in zip(where, cloud["error"])
+                     if same == rest and finer <= cell)]
+    return min(steady) if steady else None
+
+
+def prices(study, told):
+    """What an error costs, and by which settings."""
+    rows = []
+    for name, cloud in told["answer"]["measures"].items():
+        cells = [name.replace("_", " ")]
+        for target in TARGETS:
+            found = cheapest(told, cloud, target)
+            told_as = "-" if found is None else f"{found[0]:.2g} s: {varied(told, cloud['labels'][found[1]])}"
+            cells.append(told_as)
+        rows.append(cells)
+    study.add(f"### {told['title']}",
+              f"{len(told['members'])} members. Core-seconds of the cheapest setting that is as "
+              "near, with all finer cells:")
+    study.add_table(["measure", *(f"{target:g} %" for target in TARGETS)], rows)
+    study.add(*(line for line in told["sentences"] if line.startswith("Member")))
+
+
+def wins(told):
+    """{(path, value): (members on a front, members)} over all measures."""
+    count = {}
+    for cloud in told["answer"]["measures"].values():
+        for i, label in enumerate(cloud["labels"]):
+            for setting in settings_of(told, label).items():
+                on, all_of = count.get(setting, (0, 0))
+                count[setting] = (on + (i in cloud["front"]), all_of + 1)
+    return count
+
+
+def dominated(study, all_told):
+    """Settings that stand on no front of their problem."""
+    rows, never = [], []
+    for told in all_told:
+        for (path, value), (on, all_of) in wins(told).items():
+            if path == CELL:
+                continue
+            rows.append([told["title"], f"`{path.split('.', 1)[-1]}: {value}`", f"{on} of {all_of}"])
+            if on == 0:
+                never.append(f"`{value}` ({told['title']})")
+    study.add("## On how many fronts",
+              "Members with a setting that no other member beats in both error and cost, over all measures.")
+    study.add_table(["problem", "setting", "on a front"], rows)
+    study.add("On none: " + ("; ".join(never) if never else "there is no such setting") + ".")
+
+
+def draw(path, all_told):
+    figure, axes = plt.subplots(1, len(all_told), figsize=(3.1 * len(all_told), 3.4))
+    for ax, told in zip(axes, all_told):
+        for k, (name, cloud) in enumerate(told["answer"]["measures"].items()):
+            ax.loglog(cloud["cost"], [max(e, 1e-3) for e in cloud["error"]], ".", ms=5, alpha=0.45, color=f"C{k}")
+            front = sorted(cloud["front"], key=lambda i: cloud["cost"][i])
+            ax.loglog([cloud["cost"][i] for i in front], [max(cloud["error"][i], 1e-3) for i in front], "-o", ms=3,
+                      lw=1, color=f"C{k}", label=name.replace("_", " "))
+        ax.set_title(told["title"], fontsize=8)
+        ax.set_xlabel("core-seconds")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        ax.legend(fontsize=6, frameon=False)
+    axes[0].set_ylabel("error [%]")
+    figure.tight_layout()
+    figure.savefig(path, dpi=160)
+
+
+def main():
+    study = Study(__file__, "inputs/taylor_copper.yaml", ESTIMATED_SECONDS, __doc__)
+    all_told = [told for name in PROBLEMS if (told := answer(study, name))]
+    study.add("Error against a known answer, and cost, of every combination of some settings: "
+              + ", ".join(f"[{name}]({name}.yaml)" for name in PROBLEMS) + ", to be run by anybody with `krater "
+              "study`. Start of the program and output are part of the cost: nothing falls below about 0.1 s. Errors "
+              "below what the truth is known to count as no better than that.", "![fronts](fronts.png)")
+    with open(os.path.join(study.folder, "discussion.md"), encoding="utf-8") as file:
+        study.add(file.read().strip())
+    study.add("## What an error costs")
+    for told in all_told:
+        prices(study, told)
+    dominated(study, all_told)
+    draw(os.path.join(study.folder, "fronts.png"), all_told)
+    study.write("Error against cost: the fronts")
+    return 1 if study.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
