@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Gauges of a run as a user gets them: a free surface, points of the material and of space, filters, restart, errors."""
 
-import csv
 import os
 import pathlib
 
 import h5py
 import numpy as np
 
-from scene_support import Folder, check, finish, history, krater, results_errors, run, summary
+from scene_support import Folder, check, finish, gauge_table, history, krater, results_errors, run, summary
 
 # A plate of 10 mm in uniaxial strain: a pressure of 1 MPa from below reaches the free surface after L/c.
 PLATE = """
@@ -33,13 +32,6 @@ C = np.sqrt((163.5e9 + 4 / 3 * 80e9) / 7850)
 V = 1e6 / (7850 * C)
 
 
-def table(folder, name):
-    with open(os.path.join(folder, f"gauge_{name}.csv"), newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    values = np.array([[float(x) for x in row] for row in rows[1:]])
-    return {title.split(" [")[0]: values[:, k] for k, title in enumerate(rows[0])}
-
-
 def near(values, exact, tolerance, what):
     check(abs(np.mean(values) / exact - 1) < tolerance, what, (float(np.mean(values)), exact))
 
@@ -50,7 +42,7 @@ def main():
         scene.write_text(PLATE, encoding="utf-8")
         done = run("one", scene=scene)
         check(done.returncode == 0, "the scene runs", done.text[-400:])
-        visar, inside, space = (table("one", name) for name in ("visar", "inside", "space"))
+        visar, inside, space = (gauge_table("one", name) for name in ("visar", "inside", "space"))
         t = visar["time"]
         near(visar["velocity_z"][(t > 12e-3 / C) & (t < 27e-3 / C)], 2 * V, 0.01, "the free surface moves with 2 p/(rho c)")
         check(np.all(np.abs(visar["velocity_z"][t < 8e-3 / C]) < 0.02 * V), "and not before the wave is there")
@@ -110,7 +102,7 @@ def removed(scene):
               "materials.steel.failure={action: remove}", "gauges.inside.every=3 ns", "gauges.inside.from=[0, 0.05 mm]", "loads.push.pressure=10 MPa", "output.frames=0"]
     done = run("gone", *values, scene=scene)
     said = summary("gone")["gauges"]["inside"]["nothing_there_since"]
-    rows = table("gone", "inside")
+    rows = gauge_table("gone", "inside")
     first = rows["time"][np.argmax(np.isnan(rows["velocity_z_0"]))]
     check(done.returncode == 0 and said[0] is not None and said[0] == first and f"gauge inside, place 0: nothing is there since {first:.4g} s" in done.text,
           "a gauge whose point was removed says when", (said, first, done.text[-300:]))
@@ -154,7 +146,7 @@ def bent(folder):
     inertia = rows["sound"][0] * (4e-3**2 + 20e-3**2) / 12
     check(abs(rows["spin"][0] / (500 * inertia) - 1) < 0.02 and np.ptp(rows["spin"]) < 1e-3 * rows["spin"][0], "its own angular momentum",
           (rows["spin"][0], 500 * inertia))
-    check(np.isfinite(table("turn", "flight")["foot_rate"]).all() and abs(rows["foot"][-1] - 300 * np.cos(10 * degree) * 20e-6) < 2e-4,
+    check(np.isfinite(gauge_table("turn", "flight")["foot_rate"]).all() and abs(rows["foot"][-1] - 300 * np.cos(10 * degree) * 20e-6) < 2e-4,
           "a bulge is counted from the face at the start", rows["foot"][-1])
 
 

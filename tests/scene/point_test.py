@@ -13,20 +13,13 @@ import sys
 import h5py
 import numpy as np
 
-from scene_support import ROOT, Folder, check, finish, krater, settings, summary
+from scene_support import Folder, ROOT, check, finish, krater, settings, summary, table
 
 POINTS = ROOT / "inputs" / "points"
 counter = itertools.count()
 
 ELASTIC = "density: 7850, youngs_modulus: 200 GPa, poisson_ratio: 0.3, eos: linear"
 K, G = 200e9 / 1.2, 200e9 / 2.6
-
-
-def table(folder):
-    with open(os.path.join(folder, "point.csv"), newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    values = np.array([[float(cell) for cell in row] for row in rows[1:]])
-    return {title.split(" [")[0]: values[:, k] for k, title in enumerate(rows[0])}
 
 
 def run(scene, *values, code=0):
@@ -36,7 +29,7 @@ def run(scene, *values, code=0):
     if done.returncode != code:
         check(False, f"exit code {code} of {scene} {values}", f"{done.returncode}: {done.stderr.strip()}")
         return None
-    return table(folder), summary(folder)
+    return table(folder, "point.csv"), summary(folder)
 
 
 def point(material, path, *, steps=1000, more="", values=(), code=0):
@@ -70,7 +63,7 @@ def examples():
         folder = path.stem + "_out"
         if not check(done.returncode == 0 and f"results in {folder}" in done.stdout, f"{path.name} runs", done.stderr):
             continue
-        t, s = table(folder), summary(folder)
+        t, s = table(folder, "point.csv"), summary(folder)
         check(s["status"] == "done" and all(np.isfinite(v).all() for v in t.values()), f"{path.name}: done, finite",
               f"{len(next(iter(t.values())))} rows, {s['machine']['ns_per_update'] or 0:.0f} ns per update")
         if "energy_balance" in t:

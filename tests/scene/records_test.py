@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Two records as an experimenter reads them: the pull-back of a spalling plate, the deceleration of a penetrator."""
 
-import csv
 import pathlib
 
 import numpy as np
 
-from scene_support import ROOT, Folder, check, finish, run, summary
+from scene_support import Folder, ROOT, check, finish, gauge_table, run, summary
 
 # A blunt rod of hard steel that aluminium stops. A body's own deceleration, and the force on it by its mass.
 PENETRATOR = """
@@ -34,13 +33,6 @@ gauges:
 """
 
 
-def table(folder, name):
-    with open(f"{folder}/gauge_{name}.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    values = np.array([[float(x) for x in row] for row in rows[1:]])
-    return {title.split(" [")[0]: values[:, k] for k, title in enumerate(rows[0])}
-
-
 def first_valley(t, u):
     """Peak and the first minimum after it from which u rises by a tenth of the peak."""
     peak = int(np.argmax(u[: int(np.searchsorted(t, 1.3e-6))]))
@@ -59,7 +51,7 @@ def spall():
         return
     density, c0, shear, strength = 8960, 3940, 46e9, 1.2e9
     c_l = np.sqrt((density * c0**2 + 4 / 3 * shear) / density)
-    visar = table("spall", "visar")
+    visar = gauge_table("spall", "visar")
     t, u = visar["time"], visar["velocity_z"]
     peak, low = first_valley(t, u)
 
@@ -88,7 +80,7 @@ def penetrator(folder):
     done = run("rod", scene=scene)
     if not check(done.returncode == 0, "the rod is stopped", done.text[-400:]):
         return
-    trace, tail = table("rod", "trace"), table("rod", "tail")
+    trace, tail = gauge_table("rod", "trace"), gauge_table("rod", "tail")
     mass = 7850 * np.pi * 4e-3**2 * 40e-3
     inside = (trace["time"] > 5e-6) & (trace["time"] < 60e-6)
     check(np.max(np.abs(trace["F"] / mass - trace["a"])[inside]) < 1e-3 * np.max(trace["a"]), "force by mass is the deceleration")

@@ -97,12 +97,20 @@ def summary(folder):
         return json.load(file)
 
 
-def history(folder):
+def table(folder, file_name):
     """Column -> values, titles without units."""
-    with open(os.path.join(folder, "history.csv"), newline="", encoding="utf-8") as file:
+    with open(os.path.join(folder, file_name), newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
-    table = np.array([[float(cell) for cell in row] for row in rows[1:]])
-    return {title.split(" [")[0]: table[:, k] for k, title in enumerate(rows[0])}
+    values = np.array([[float(cell) for cell in row] for row in rows[1:]])
+    return {title.split(" [")[0]: values[:, k] for k, title in enumerate(rows[0])}
+
+
+def history(folder):
+    return table(folder, "history.csv")
+
+
+def gauge_table(folder, name):
+    return table(folder, f"gauge_{name}.csv")
 
 
 def datasets(file_name):

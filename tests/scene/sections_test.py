@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Gauges over sections of a body: its force, what passes it, means; lines of them; restart, errors."""
 
-import csv
-import os
 import pathlib
 
 import numpy as np
 
-from scene_support import Folder, check, finish, krater, run, summary
+from scene_support import Folder, check, finish, gauge_table, krater, run, summary
 
 # Uniaxial strain behind a pressure step of 1 MPa; the section of a strip 0.2 mm wide and a metre deep.
 STRIP = """
@@ -51,13 +49,6 @@ gauges: {middle: {body: bar, at: [0, 0], section: [0.5, 0.8660254037844386], fie
 """
 
 
-def table(folder, name):
-    with open(os.path.join(folder, f"gauge_{name}.csv"), newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    values = np.array([[float(x) for x in row] for row in rows[1:]])
-    return {title.split(" [")[0]: values[:, k] for k, title in enumerate(rows[0])}
-
-
 def near(values, exact, tolerance, what):
     check(abs(np.mean(values) / exact - 1) < tolerance, what, (float(np.mean(values)), exact))
 
@@ -66,7 +57,7 @@ def strip(scene):
     done = run("one", scene=scene)
     if not check(done.returncode == 0, "the strip runs", done.text[-400:]):
         return
-    cuts, down, slant = (table("one", name) for name in ("cuts", "down", "slant"))
+    cuts, down, slant = (gauge_table("one", name) for name in ("cuts", "down", "slant"))
     t = cuts["time"]
     for k, z in enumerate((2e-3, 5e-3, 8e-3)):
         here = (t > (z + 1.5e-3) / C) & (t < (18.5e-3 - z) / C)
@@ -92,7 +83,7 @@ def rod():
     done = run("rod", *ROD)
     if not check(done.returncode == 0, "the rod runs", done.text[-400:]):
         return
-    cut, carried, beyond = (table("rod", name) for name in ("cut", "carried", "beyond"))
+    cut, carried, beyond = (gauge_table("rod", name) for name in ("cut", "carried", "beyond"))
     step = np.diff(cut["time"])
 
     def total(rate):
@@ -119,7 +110,7 @@ def leaning(folder):
     done = run("leaning", scene=scene)
     if not check(done.returncode == 0, "the leaning bar runs", done.text[-400:]):
         return
-    rows = table("leaning", "middle")
+    rows = gauge_table("leaning", "middle")
     along, across = (rows["force_x"] * a + rows["force_z"] * b for a, b in ((0.5, np.sqrt(0.75)), (np.sqrt(0.75), -0.5)))
     shear, bulk = 80e9, 163.5e9
     E, nu = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
@@ -134,7 +125,7 @@ def removed(scene):
     values = ["materials.steel.strength={von_mises: {Y: 0.1 MPa}}", "materials.steel.damage={maximum_plastic_strain: {eps_max: 1e-6}}",
               "materials.steel.failure={action: remove}", "gauges.cuts.from=[0, 0.05 mm]", "loads.push.pressure=10 MPa", "time.end=1 us"]
     done = run("gone", *values, scene=scene)
-    gone, rows = summary("gone")["gauges"]["cuts"]["nothing_there_since"][0], table("gone", "cuts")
+    gone, rows = summary("gone")["gauges"]["cuts"]["nothing_there_since"][0], gauge_table("gone", "cuts")
     check(gone is not None and gone == rows["time"][np.argmax(np.isnan(rows["force_z_0"]))] and f"nothing is there since {gone:.4g} s" in done.text,
           "a section whose point was removed says when", (gone, done.text[-300:]))
 
