@@ -49,12 +49,25 @@ bool asked_for(const Scene& scene, const char* name) {
   return false;
 }
 
+/// Rows of `width` numbers, each made by `put(number, row)`.
+template <class T, class Put>
+Rows<T> numbered_rows(int width, Put put) {
+  return [width, put](std::size_t first, std::size_t count, T* out) {
+    for (std::size_t i = first; i < first + count; ++i, out += width) put(i, out);
+  };
+}
+
 /// Rows of `width` numbers, each made by `put(point, row)`.
 template <class T, class Put>
 Rows<T> rows_of(const PointList& points, int width, Put put) {
-  return [points, width, put](std::size_t first, std::size_t count, T* out) {
-    for (std::size_t i = first; i < first + count; ++i, out += width) put((*points)[i], out);
-  };
+  return numbered_rows<T>(width, [points, put](std::size_t i, T* row) { put((*points)[i], row); });
+}
+
+/// s:s of the deviator from slot `s` on.
+double squared_deviator(Place at, int s) {
+  double square = 0;
+  for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * at(s + k) * at(s + k);
+  return square;
 }
 
 /// Values of a column, vectors along grid axes widened to space.
@@ -84,12 +97,7 @@ void add_stress(const Simulation& sim, const Body& body, const PointList& points
     for (int k = 0; k < 6; ++k) row[k] = at(s + k) - (k < 3 ? pressure : 0);
   };
   const auto mises = [=](Place at, double* row) {
-    double square = 0;
-    for (int k = 0; k < 6; ++k) {
-      const double x = at(s + k);
-      square += (k < 3 ? 1 : 2) * x * x;
-    }
-    *row = std::sqrt(1.5 * square);
+    *row = std::sqrt(1.5 * squared_deviator(at, s));
   };
   out.fields.push_back({"stress", "Pa", "Cauchy stress, tension positive, without viscosity", 6,
                         tensor_names(sim.scene().frame), rows_of<double>(points, 6, stress)});
@@ -115,14 +123,6 @@ void widen(Frame frame, const Triple& v, double* row) {
     row[tensor_axis(frame, a)] = v[static_cast<std::size_t>(a)];
 }
 
-/// Rows of `width` numbers, each made by `put(node, row)`.
-template <class Put>
-Rows<double> node_rows(int width, Put put) {
-  return [width, put](std::size_t first, std::size_t count, double* out) {
-    for (std::size_t n = first; n < first + count; ++n, out += width) put(n, out);
-  };
-}
-
 FrameMesh frame_mesh(const Simulation& sim, int s) {
   const MeshStep& step = *sim.mesh();
   const Mesh& mesh = step.mesh(s);
@@ -134,15 +134,16 @@ FrameMesh frame_mesh(const Simulation& sim, int s) {
     const auto corners = static_cast<std::size_t>(mesh.corners());
     std::copy_n(mesh.elements.data() + first * corners, count * corners, to);
   };
-  out.coordinates = node_rows(
+  out.coordinates = numbered_rows<double>(
       3, [&step, s, frame](std::size_t n, double* row) { widen(frame, step.position(s, n), row); });
   const auto velocity = [&step, s, frame](std::size_t n, double* row) {
     widen(frame, step.velocity(s, n), row);
   };
   const auto mass = [&step, s](std::size_t n, double* row) { *row = step.mass(s, n); };
+  out.fields.push_back({"velocity", "m/s", "velocity of the node", 3, vector_names(frame),
+                        numbered_rows<double>(3, velocity)});
   out.fields.push_back(
-      {"velocity", "m/s", "velocity of the node", 3, vector_names(frame), node_rows(3, velocity)});
-  out.fields.push_back({"mass", "kg", "its share of its elements", 1, {}, node_rows(1, mass)});
+      {"mass", "kg", "its share of its elements", 1, {}, numbered_rows<double>(1, mass)});
   return out;
 }
 
@@ -157,8 +158,9 @@ BodyFrame body_frame(const Simulation& sim, int b) {
   out.ids = rows_of<std::int64_t>(
       points, 1, [id](Place at, std::int64_t* row) { *row = static_cast<std::int64_t>(at(id)); });
   out.coordinates = rows_of<double>(points, 3, [x, frame](Place at, double* row) {
-    std::fill_n(row, 3, 0.0);
-    for (int a = 0; a < dimension(frame); ++a) row[tensor_axis(frame, a)] = at(x + a);
+    Triple place{};
+    for (int a = 0; a < dimension(frame); ++a) place[static_cast<std::size_t>(a)] = at(x + a);
+    widen(frame, place, row);
   });
   for (const Column& c : body.layout().columns())
     if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
@@ -196,9 +198,7 @@ double deviatoric_energy(const Simulation& sim, int set) {
   double sum = 0;
   for (int i = 0; i < points.count(); ++i) {
     const Place at{points.points->point(i)};
-    double square = 0;
-    for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * at(s + k) * at(s + k);
-    sum += at(m) * square / (4 * G * at(rho) * (phi < 0 ? 1 : 1 - at(phi)));
+    sum += at(m) * squared_deviator(at, s) / (4 * G * at(rho) * (phi < 0 ? 1 : 1 - at(phi)));
   }
   return sum;
 }
