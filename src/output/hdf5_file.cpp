@@ -187,7 +187,11 @@ StreamedFile::StreamedFile(const std::string& path, Kind kind)
   require(handle_.id(), "file");
 }
 
-void StreamedFile::close() { handle_ = Handle{}; }
+void StreamedFile::close() {
+  const QuietErrors quiet;
+  require(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), "flush");
+  handle_ = Handle{};
+}
 
 void StreamedFile::commit() {
   if (kind_ == Kind::sealed) seal(*part_);
