@@ -58,6 +58,11 @@ std::vector<std::string> doubt_method(const Scene& scene) {
           fmt::format("method.{} says how points and grid exchange, and every body of this scene "
                       "has elements: it changes nothing",
                       key));
+  if (scene.contact.active && scene.contact.normal != ContactOptions{}.normal)
+    doubts.emplace_back(
+        "contact.normal says how the normal is found between bodies of points; elements have "
+        "faces: "
+        "it changes nothing");
   return doubts;
 }
 

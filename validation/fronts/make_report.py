@@ -131,6 +131,8 @@ def draw(path, all_told):
 def main():
     study = Study(__file__, "inputs/taylor_copper.yaml", ESTIMATED_SECONDS, __doc__)
     all_told = [told for name in PROBLEMS if (told := answer(study, name))]
+    if not all_told:
+        sys.exit(f"fronts: no study ran: {study.failed}")
     study.add("Error against a known answer, and cost, of every combination of some settings: "
               + ", ".join(f"[{name}]({name}.yaml)" for name in PROBLEMS) + ", to be run by anybody with `krater "
               "study`. Start of the program and output are part of the cost: nothing falls below about 0.1 s. Errors "

@@ -17,7 +17,7 @@ namespace krater {
 /// per fluid in contact with less than four points per direction.
 std::vector<std::string> doubt_fields(const Scene& scene);
 
-/// One sentence per key of `method:` that was changed where every body has elements.
+/// One sentence per key of `method:` and of contact that was changed where every body has elements.
 std::vector<std::string> doubt_method(const Scene& scene);
 
 }  // namespace krater

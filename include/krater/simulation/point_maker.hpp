@@ -3,7 +3,6 @@
 /// \file simulation/point_maker.hpp
 /// The record of a new material point: position, velocity of its body's field, mass, domain, and
 /// what the laws start from.
-#include <array>
 #include <vector>
 
 #include "krater/simulation/body.hpp"
