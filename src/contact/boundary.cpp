@@ -291,10 +291,14 @@ void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& s
 
 double BoundarySet::heat() {
   const double sum = heat_.book();
+  mirror_work();
+  return sum;
+}
+
+void BoundarySet::mirror_work() const {
   for (const Plane& plane : planes_)
     if (plane.condition->folds())
-      for (const Column& c : plane.columns) c.ghost[moved::volume] = c.inner[moved::volume];
-  return sum;
+      for (const Column& c : plane.columns) c.ghost[moved::work] = c.inner[moved::work];
 }
 
 bool BoundarySet::touches(const Plane& plane, const Column& c) const {

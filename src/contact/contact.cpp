@@ -154,6 +154,19 @@ void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratc
     }
 }
 
+double ContactSet::filling(const BlockGrid& grid, const std::array<int, 3>& index,
+                           FieldId field) const {
+  std::array<int, 3> inside{};
+  double part = 1;
+  for (int a = 0; a < geometry_.dimension; ++a) {
+    const auto k = static_cast<unsigned>(a);
+    inside[k] = mirrored(a, index[k]);
+    part *= geometry_.h * covered(a, inside[k]);
+  }
+  const double* node = grid.find_node(inside, field);
+  return node != nullptr && part > 0 ? node[moved::volume] / part : 0.0;
+}
+
 Triple ContactSet::exchange(double* a, double* b, const Contact& contact, double mu,
                             ContactWork& sum) const {
   const double reduced = a[moved::mass] * b[moved::mass] / (a[moved::mass] + b[moved::mass]);

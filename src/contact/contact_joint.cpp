@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "krater/contact/contact.hpp"
+#include "krater/contact/joint_profile.hpp"
 
 namespace krater {
 
@@ -16,27 +17,7 @@ constexpr double kTouch = 0.05;
 // At 10 the corners of a block on a base still plough: 1.3 % too much friction at 20 cells, 0.4 %
 // at 40; without friction it lost 0.03 % of its speed, and now 0.001 %.
 constexpr double kSteeper = 40;
-// A body ends along an axis when it fills the node beyond at most half as well as the node before:
-// faces up to 70 degrees off do.
-constexpr double kEnds = 0.5;
-
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
-
-/// Filling of one body at the node before the joint, at it and beyond, from its inside out.
-struct Profile {
-  double before, at, beyond;
-  bool ends() const { return beyond < kEnds * before; }
-  /// How far the body reaches beyond the joint's node [cells].
-  double reach() const {
-    // A face at a: the share of the bend in the drop is a/1.6 within 0.02 for |a| < 1/2,
-    // whatever part of the node's width the body takes.
-    const double bend = (at - 0.5 * (before + beyond)) / (before - beyond);
-    // A body that thins out behind its face bends as if it reached further. The tail beyond the
-    // face, ~ (a + 1/2)^3, knows better; 0.02 is what a lattice of two points per cell may miss.
-    const double tail = std::cbrt(beyond / at + 0.02);
-    return std::min(1.6 * bend, 1.73 * tail - 0.55);
-  }
-};
 
 }  // namespace
 
@@ -77,7 +58,7 @@ double ContactSet::gap(const double* phi_a, const double* phi_b) const {
   double widest = -1;
   for (int axis = 0; axis < geometry_.dimension; ++axis) {
     const int s = phi_a[-stride_[axis]] > phi_a[stride_[axis]] ? stride_[axis] : -stride_[axis];
-    const Profile a{phi_a[-s], phi_a[0], phi_a[s]}, b{phi_b[s], phi_b[0], phi_b[-s]};
+    const JointProfile a{phi_a[-s], phi_a[0], phi_a[s]}, b{phi_b[s], phi_b[0], phi_b[-s]};
     if (a.ends() && b.ends()) widest = std::max(widest, -a.reach() - b.reach());
   }
   return widest;

@@ -3,42 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include "krater/contact/contact.hpp"
+#include "krater/contact/rigid_meeting.hpp"
 #include "krater/core/parallel.hpp"
 
 namespace krater {
 
-namespace {
-
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// How a node meets a rigid body: the change of its velocity that the body asks for.
-struct Meeting {
-  Vector3d arm, velocity;  ///< from the centre; of the body at the node
-  Vector3d normal, slip;   ///< body - node, along the surface
-  double closing = 0, loss = 0;
-};
-
-Meeting meet(const double* node, const std::array<double, 3>& normal,
-             const std::array<double, 3>& place, double friction, const RigidTwist& twist) {
-  Meeting out;
-  const Eigen::Map<const Vector3d> v{node};
-  const Vector3d x{place[0], place[1], place[2]};
-  out.normal = {normal[0], normal[1], normal[2]};
-  out.arm = x - twist.centre;
-  out.velocity = twist.at(x);
-  const Vector3d apart = out.velocity - v;
-  out.closing = apart.dot(out.normal);
-  out.slip = apart - out.closing * out.normal;
-  const double slip = out.slip.norm();
-  out.loss = slip > 0 ? std::min(friction * out.closing / slip, 1.0) : 0.0;
-  return out;
-}
-
-}  // namespace
 
 ContactSet::RigidShare& ContactSet::share_of(Group& group, int body) {
   for (RigidShare& share : group.shares)
@@ -67,27 +38,20 @@ ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& gro
 }
 
 void ContactSet::probe(const Strike& strike, const RigidTwist& twist, RigidShare& share) const {
-  const Meeting m = meet(strike.node, strike.normal, strike.place, strike.friction, twist);
-  if (!(m.closing > 0)) return;
-  const double mass = strike.node[moved::mass];
-  const Vector3d impulse = -mass * (m.closing * m.normal + m.loss * m.slip);
-  share.push.head<3>() += impulse;
-  share.push.tail<3>() += m.arm.cross(impulse);
-  Eigen::Matrix<double, 3, 6> A = Eigen::Matrix<double, 3, 6>::Identity();
-  A.rightCols<3>() << 0, m.arm[2], -m.arm[1], -m.arm[2], 0, m.arm[0], m.arm[1], -m.arm[0], 0;
-  const bool sticks = m.loss >= 1;
-  const Matrix3d P = sticks ? Matrix3d::Identity() : Matrix3d{m.normal * m.normal.transpose()};
-  share.stiffness += mass * A.transpose() * P * A;
+  const RigidMeeting m =
+      meet_rigid(strike.node, strike.normal, strike.place, strike.friction, twist);
+  if (m.closing > 0) share.foretold.add(m, strike.node[moved::mass]);
 }
 
 Triple ContactSet::exchange(const Strike& strike, const RigidTwist& twist, Group& group,
                             ContactWork& sum) const {
-  const Meeting m = meet(strike.node, strike.normal, strike.place, strike.friction, twist);
+  const RigidMeeting m =
+      meet_rigid(strike.node, strike.normal, strike.place, strike.friction, twist);
   if (!(m.closing > 0)) return {};
   double* node = strike.node;
   const double mass = node[moved::mass];
   Eigen::Map<Vector3d> v{node}, dv{node + moved::change};
-  const Vector3d change = m.closing * m.normal + m.loss * m.slip;
+  const Vector3d change = m.change();
   sum.change -= 0.5 * mass * v.squaredNorm();
   v += change;
   dv += change;
@@ -129,21 +93,12 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
   });
   for (const RigidBody& body : rigid.all()) {
     if (!body.options().free) continue;
-    RigidShare all;
-    all.body = body.options().body;
+    const int b = body.options().body;
+    ForetoldPush all;
     for (Group& group : groups_)
       for (const RigidShare& share : group.shares)
-        if (share.body == all.body) {
-          all.push += share.push;
-          all.stiffness += share.stiffness;
-        }
-    const Eigen::Matrix<double, 6, 6> mobility = body.mobility();
-    const Eigen::Matrix<double, 6, 6> system =
-        Eigen::Matrix<double, 6, 6>::Identity() + mobility * all.stiffness;
-    const Eigen::Matrix<double, 6, 1> change = system.partialPivLu().solve(mobility * all.push);
-    RigidTwist& twist = twists_[static_cast<std::size_t>(all.body)];
-    twist.velocity += change.head<3>();
-    twist.spin += change.tail<3>();
+        if (share.body == b) all.add(share.foretold);
+    all.foretell(body, twists_[static_cast<std::size_t>(b)]);
   }
 }
 

@@ -65,7 +65,7 @@ int BlockGrid::find_node_block(const BlockKey& key, FieldId field) const {
   return node_index_.find(key, tag(field));
 }
 
-double* BlockGrid::find_node(const std::array<int, 3>& storage_index, FieldId field) const {
+std::pair<BlockKey, int> BlockGrid::place_of_node(const std::array<int, 3>& storage_index) const {
   const int edge = block_edge(geometry_.dimension);
   BlockKey key;
   int local = 0;
@@ -75,6 +75,11 @@ double* BlockGrid::find_node(const std::array<int, 3>& storage_index, FieldId fi
     key.i[static_cast<std::size_t>(a)] = block;
     local = local * edge + (i - block * edge);
   }
+  return {key, local};
+}
+
+double* BlockGrid::find_node(const std::array<int, 3>& storage_index, FieldId field) const {
+  const auto [key, local] = place_of_node(storage_index);
   const int n = find_node_block(key, field);
   return n < 0 ? nullptr : node_blocks_[static_cast<std::size_t>(n)].nodes + kNodeDoubles * local;
 }

@@ -6,15 +6,18 @@
 namespace krater {
 
 Kinematics::~Kinematics() = default;
+Encounter::~Encounter() = default;
 
-double take_step(std::span<Kinematics* const> all, double dt) {
+double take_step(std::span<Kinematics* const> all, double dt, Encounter* between) {
   double safe = dt;
   do {  // what one shortens, the others are asked again
     dt = safe;
     for (Kinematics* k : all) safe = std::min(safe, k->force(safe));
   } while (safe < dt && all.size() > 1);
+  if (between) between->push(safe);
   for (Kinematics* k : all) k->meet(safe);
-  for (Kinematics* k : all) k->move(safe);
+  Standing standing = between ? between->book() : Standing{};
+  for (Kinematics* k : all) standing = k->move(safe, standing);
   return safe;
 }
 

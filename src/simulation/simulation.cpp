@@ -123,10 +123,12 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   place_rigid_bodies();
   require_faces(*this);
   place_meshes();
+  find_movers();
   choose_first_step();
   const Totals start = totals();
   audit_.kinetic = audit_.initial_kinetic = start.kinetic;
   audit_.internal = audit_.initial_internal = start.internal;
+  audit_.unfelt_start = 0;
   for (std::size_t b = 0; b < kernel_data_.size(); ++b)
     if (kernel_data_[b].heat_floor == nullptr)
       audit_.unfelt_start += totals(static_cast<int>(b)).internal;
@@ -202,11 +204,6 @@ void Simulation::place_points() {
 }
 
 void Simulation::choose_first_step() {
-  if (mesh_) {
-    limit_ = mesh_->limit();
-    require_steps(scene_.time, clock_.stable_step(limit_.rate));
-    return clock_.start(limit_.rate);
-  }
   double fastest = 0, signal = 0;
   for (const Patch& p : grid_.patches()) {
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
@@ -225,8 +222,20 @@ void Simulation::choose_first_step() {
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
   limit_.rate = std::max((2 * fastest + signal) * geometry_.inv_h, detonation_.rate(time()));
+  if (mesh_ && mesh_->limit().rate > limit_.rate) limit_ = mesh_->limit();
   require_steps(scene_.time, clock_.stable_step(limit_.rate));
   clock_.start(limit_.rate);
+}
+
+void Simulation::find_movers() {
+  if (mesh_) movers_.push_back(mesh_.get());
+  if (!mesh_ || step_->set_count() > 0) movers_.push_back(step_.get());
+}
+
+void Simulation::find_limit() {
+  limit_ = movers_.front()->limit();
+  for (const Kinematics* k : movers_)
+    if (k->limit().rate > limit_.rate) limit_ = k->limit();
 }
 
 const char* Simulation::limiter() const {
@@ -284,11 +293,10 @@ void Simulation::step(double until) {
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;
   try {
-    Kinematics* const all[] = {&moving()};
-    taken = take_step(all, asked);
+    taken = take_step(movers_, asked, encounter_.get());
   } catch (const StepFault& fault) {
     broken_ = true;
-    const std::string text = describe_fault(fault.patch, fault.fault);
+    const std::string text = describe_fault(mesh_sets() + fault.patch, fault.fault);
     deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
     throw NumericalError(text);
   } catch (const ElementFault& fault) {
@@ -305,7 +313,7 @@ void Simulation::step(double until) {
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
-  limit_ = moving().limit();
+  find_limit();
   try {
     energy_watch_.check(audit_, taken);
   } catch (const EnergyError& e) {

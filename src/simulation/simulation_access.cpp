@@ -47,7 +47,7 @@ double Simulation::bytes_per_point() const {
 }
 
 void Simulation::set_value(int s, int point, int slot, double x) {
-  moving().change(s).at(kLanes * slot, point) = x;
+  change(s).at(kLanes * slot, point) = x;
 }
 
 void Simulation::book_change() {
@@ -82,10 +82,10 @@ Totals& Totals::operator+=(const Totals& other) {
 }
 
 Totals Simulation::totals_of_set(int s) const {
-  if (mesh_) return totals_of_mesh(s);
+  if (s < mesh_sets()) return totals_of_mesh(s);
   Totals t;
   const int dim = geometry_.dimension;
-  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - mesh_sets())];
   const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
   // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
   for (int i = 0; i < patch.points.count(); ++i) {
@@ -150,14 +150,15 @@ std::string Simulation::describe_point(int s, int point) const {
   for (int a = 0; a < geometry_.dimension; ++a)
     position += fmt::format("{}{} = {:.6e} m", a > 0 ? ", " : "", axis_name(scene_.frame, a),
                             value(s, point, body.slot(field::Position::info, a)));
-  return fmt::format("body '{}', {} {:.0f} at {}", body.name(), mesh_ ? "element" : "point",
+  return fmt::format("body '{}', {} {:.0f} at {}", body.name(),
+                     s < mesh_sets() ? "element" : "point",
                      value(s, point, body.slot(field::Id::info)), position);
 }
 
 double Simulation::energy_per_mass(int s, int point) const {
   const Body& body = *bodies_[static_cast<std::size_t>(set(s).body)];
   double energy = 0;
-  if (mesh_) {
+  if (s < mesh_sets()) {
     for (int a = 0; a < geometry_.dimension; ++a) {
       const double v = value(s, point, body.slot(field::Velocity::info, a));
       energy += 0.5 * v * v;

@@ -81,8 +81,8 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   std::vector<std::int64_t> keys;
   const std::vector<int> sets = sets_of(b);
   for (const int s : sets) {
-    if (mesh_) continue;
-    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s)];
+    if (s < mesh_sets()) continue;
+    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - mesh_sets())];
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
     keys.push_back(patch.points.count());
   }
@@ -105,7 +105,7 @@ void Simulation::save_body(int b, Checkpoint& out) const {
                                *to++ = from.at(kLanes * slots[row], i);
                            }
                        }});
-  if (mesh_ && !sets.empty())
+  if (is_mesh(b) && !sets.empty())
     out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(sets.front())));
   if (const RigidBody* rigid = rigid_.find(b))
     out.blobs.push_back(numbers(blob_name(body, "rigid"), rigid->state()));
@@ -141,7 +141,7 @@ void Simulation::restore_columns(const CheckpointBlob& points, const Body& body,
     points.matrix(row, 1, x.data());
     const double* from = x.data();
     for (const int s : sets) {
-      PointStore& to = moving().change(s);
+      PointStore& to = change(s);
       for (int i = 0; i < to.count(); ++i) to.at(kLanes * slots[row], i) = *from++;
     }
   }
@@ -152,7 +152,7 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   if (demand(checkpoint, blob_name(body, "columns")).text != columns_text(body))
     throw InputError("checkpoint: body '" + body.name() +
                      "' has other columns there: another law, method or version of krater");
-  if (mesh_) return restore_mesh(b, checkpoint);
+  if (is_mesh(b)) return restore_mesh(b, checkpoint);
   const CheckpointBlob& points = demand(checkpoint, blob_name(body, "points"));
   const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
@@ -163,7 +163,7 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
     grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 3]));
   }
   std::vector<int> sets(grid_.patches().size() - first);
-  std::iota(sets.begin(), sets.end(), static_cast<int>(first));
+  std::iota(sets.begin(), sets.end(), mesh_sets() + static_cast<int>(first));
   restore_columns(points, body, sets);
   for (std::size_t p = first; p < grid_.patches().size(); ++p)
     if (!grid_.patches()[p].points.empty()) grid_.patches()[p].points.pad(columns.mass);

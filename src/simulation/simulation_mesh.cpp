@@ -53,7 +53,6 @@ void Simulation::place_meshes() {
       for (std::size_t a = 0; a < 3; ++a)
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);
-      if (scene_.contact.active) mesh_->set_contact(scene_.grid.cell, scene_.contact, impulses_);
     }
     const MaterialPlan plan = material_plan(body.material());
     ElementBody made{.body = static_cast<int>(b),
@@ -74,6 +73,10 @@ void Simulation::place_meshes() {
   if (!mesh_) return;
   mesh_->start();
   health_ = mesh_->health();
+  if (scene_.contact.active)
+    encounter_ = std::make_unique<MeshContact>(
+        scene_.frame, scene_.contact,
+        MeshContact::Parts{*mesh_, grid_, contact_, boundary_, rigid_, audit_, impulses_});
 }
 
 void Simulation::look_at_elements() {

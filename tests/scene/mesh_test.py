@@ -211,8 +211,12 @@ def main():
                                        "[0, 33 mm]}}}\nmeasures:").replace("max: [12 mm, 35.2 mm]", "max: [12 mm, 40 mm]")
         bar.write_text(two, encoding="utf-8")
         done = run("refused", scene=bar)
-        check(done.returncode == 2 and "does not meet bodies of points yet" in done.text and "bar.yaml:" in done.text,
-              "refused: elements and points in one scene", done.text)
+        check(done.returncode == 2 and "by contact only" in done.text and "bar.yaml:" in done.text,
+              "refused: elements and points in one scene without contact", done.text)
+        bar.write_text(two + "contact: {friction: 0}\nmethod: {update: musl}\n", encoding="utf-8")
+        done = run("refused", scene=bar)
+        check(done.returncode == 2 and "update usl" in done.text and "bar.yaml:" in done.text,
+              "refused: elements among points with another scheme", done.text)
     finish()
 
 

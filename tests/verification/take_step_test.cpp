@@ -22,7 +22,10 @@ class Cautious final : public Kinematics {
     return last = std::min(dt, safe_);
   }
   void meet(double dt) override { log += dt == last ? "m" : "?"; }
-  void move(double dt) override { log += dt == last ? "v" : "?"; }
+  Standing move(double dt, const Standing& others) override {
+    log += dt == last ? "v" : "?";
+    return {others.kinetic + 1, 0, 0, 0, others.contact_pairs};
+  }
   const TimeStepLimit& limit() const override { return limit_; }
   int set_count() const override { return 0; }
   PointSet set(int) const override { return {}; }

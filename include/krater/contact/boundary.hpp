@@ -87,6 +87,8 @@ class BoundarySet {
   /// What they took becomes heat of the nodes, which hold k; returns it [J]. After mirror(), when
   /// every v+ is final.
   double heat();
+  /// Ghosts get the k of what they mirror: heat() does it, and whoever gives nodes heat after it.
+  void mirror_work() const;
   /// Give ghosts the mirrored values the gather reads.
   void mirror() const;
   /// Call call(ghost, inner node) for each column of the planes that are not open.

@@ -41,6 +41,7 @@
 #include "krater/contact/impulse_heat.hpp"
 #include "krater/contact/impulses.hpp"
 #include "krater/contact/rigid.hpp"
+#include "krater/contact/rigid_meeting.hpp"
 #include "krater/points/columns.hpp"
 
 namespace krater {
@@ -84,6 +85,8 @@ class ContactSet {
   double heat();
   /// Adds what bodies gave each other in the last call, if it was noted.
   void give(Impulses& impulses) const;
+  /// phi of a field at a node, by its storage index; 0 where it has none. While nodes hold volumes.
+  double filling(const BlockGrid& grid, const std::array<int, 3>& index, FieldId field) const;
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -99,8 +102,7 @@ class ContactSet {
   struct RigidShare {
     int body = -1;
     RigidImpulse sum;
-    Eigen::Matrix<double, 6, 1> push = Eigen::Matrix<double, 6, 1>::Zero();
-    Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+    ForetoldPush foretold;
   };
   /// What a rigid body gives one node, whose loss it shares.
   struct RigidPush {

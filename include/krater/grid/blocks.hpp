@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "krater/core/aligned.hpp"
@@ -188,6 +189,8 @@ class BlockGrid {
   void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
   int find_patch(const BlockKey& key, int body) const;            ///< -1: none
   int find_node_block(const BlockKey& key, FieldId field) const;  ///< -1: none
+  /// The block of a node, and which it is there.
+  std::pair<BlockKey, int> place_of_node(const std::array<int, 3>& storage_index) const;
   /// nullptr: not stored
   double* find_node(const std::array<int, 3>& storage_index, FieldId field) const;
   /// Sort patches, drop empty ones if asked, lay out node blocks and all links.

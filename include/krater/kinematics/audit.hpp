@@ -81,10 +81,11 @@ struct Audit {
   void find_unfelt() {
     numerical_heat = (unfelt + unfelt_removed - unfelt_start) - (law_work - law_lead);
   }
-  /// Work of these laws in a step, and how much of it lies ahead of the velocities.
-  void book_laws(double work, double share_ahead) {
+  /// Work of these laws in a step, and how much of it lies ahead of the velocities; `others`: of
+  /// what moved before in this step.
+  void book_laws(double work, double share_ahead, double others) {
     law_work += work;
-    law_lead = share_ahead * work;
+    law_lead = others + share_ahead * work;
   }
   /// Walls that acted as body forces on points (fixed reference) during dt; `alone`: no other body
   /// force did, so that their work can be told apart.

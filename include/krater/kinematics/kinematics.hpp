@@ -8,6 +8,7 @@
 ///   move(dt)             v, x, L of the points, and by the stages of their material sigma_{n+1}
 /// Each books its energies in the audit it was made with, and hands its points out in sets: that is
 /// all that output, measures and checkpoints know of it. Virtual calls per sweep, never per point.
+/// None knows another: what is between bodies of different ones is an Encounter.
 #include <span>
 
 #include "krater/points/store.hpp"
@@ -22,6 +23,13 @@ struct TimeStepLimit {
   double id = -1;
 };
 
+/// Energies that the audit holds at a time of the step, summed from one kinematics to the next.
+struct Standing {
+  double kinetic = 0, internal = 0;  ///< [J]
+  double unfelt = 0, law_lead = 0;   ///< [J], see Audit
+  double contact_pairs = 0;          ///< places where bodies pushed in this step
+};
+
 class Kinematics {
  public:
   Kinematics() = default;
@@ -33,7 +41,8 @@ class Kinematics {
   /// before a point is touched.
   virtual double force(double dt) = 0;
   virtual void meet(double dt) = 0;
-  virtual void move(double dt) = 0;
+  /// `others` have moved before, and hold this; returns the sum with its own, which the audit has.
+  virtual Standing move(double dt, const Standing& others) = 0;
   virtual const TimeStepLimit& limit() const = 0;  ///< found by the last move
 
   virtual int set_count() const = 0;
@@ -42,7 +51,18 @@ class Kinematics {
   virtual PointStore& change(int s) = 0;
 };
 
-/// One step of all, `dt` or shorter; returns the step taken [s].
-double take_step(std::span<Kinematics* const> all, double dt);
+/// Contact of bodies that may differ in their kinematics.
+class Encounter {
+ public:
+  Encounter() = default;
+  Encounter(const Encounter&) = delete;
+  Encounter& operator=(const Encounter&) = delete;
+  virtual ~Encounter();
+  virtual void push(double dt) = 0;  ///< velocities, after all forces and before any side
+  virtual Standing book() = 0;       ///< its heat, when every velocity is final
+};
+
+/// One step of all, `dt` or shorter; returns the step taken [s]. `between`: may be null.
+double take_step(std::span<Kinematics* const> all, double dt, Encounter* between = nullptr);
 
 }  // namespace krater

@@ -10,6 +10,7 @@
 
 #include "krater/kinematics/clock.hpp"
 #include "krater/kinematics/loads.hpp"
+#include "krater/kinematics/mesh/mesh_contact.hpp"
 #include "krater/kinematics/mesh/mesh_step.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
@@ -86,9 +87,11 @@ class Simulation {
   Totals totals() const;  ///< of all bodies
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
-  /// All points, in sets of one body; the order is part of the state.
-  int set_count() const { return mesh_ ? mesh_->set_count() : step_->set_count(); }
-  PointSet set(int s) const { return mesh_ ? mesh_->set(s) : step_->set(s); }
+  /// All points, in sets of one body; the order is part of the state. First elements, by body.
+  int set_count() const { return mesh_sets() + step_->set_count(); }
+  PointSet set(int s) const {
+    return s < mesh_sets() ? mesh_->set(s) : step_->set(s - mesh_sets());
+  }
   const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
   /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
@@ -104,8 +107,16 @@ class Simulation {
       const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
 
  private:
-  /// What moves the bodies: elements, or material points.
-  Kinematics& moving() { return mesh_ ? static_cast<Kinematics&>(*mesh_) : *step_; }
+  int mesh_sets() const { return mesh_ ? mesh_->set_count() : 0; }
+  bool is_mesh(int body) const {
+    return bodies_[static_cast<std::size_t>(body)]->options().mesh.has_value();
+  }
+  PointStore& change(int s) {
+    return s < mesh_sets() ? mesh_->change(s) : step_->change(s - mesh_sets());
+  }
+  /// What moves bodies: those of elements first, for material points book what all hold.
+  void find_movers();
+  void find_limit();
   void place_meshes();
   Totals totals_of_mesh(int s) const;
   std::vector<int> sets_of(int body) const;
@@ -152,6 +163,8 @@ class Simulation {
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;
+  std::unique_ptr<MeshContact> encounter_;  ///< null: no body of elements meets another
+  std::vector<Kinematics*> movers_;
   MeshHealth health_;
   StepClock clock_;
   TimeStepLimit limit_;  ///< of the next step

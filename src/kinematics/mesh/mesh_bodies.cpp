@@ -142,11 +142,6 @@ MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audi
 
 MeshStep::~MeshStep() = default;
 
-void MeshStep::set_contact(double cell, const ContactOptions& options, Impulses& impulses) {
-  contact_ = std::make_unique<MeshContact>(domain_.frame, cell, options);
-  impulses_ = &impulses;
-}
-
 void MeshStep::add(ElementBody made_of) {
   auto body = std::make_unique<Elements>();
   body->made_of = std::move(made_of);
@@ -165,17 +160,16 @@ void MeshStep::add(ElementBody made_of) {
   place_nodes(volumes, *body);
   body->surface = surface_edges(m.mesh);
   note_planes(*body);
-  if (contact_) contact_->add(meeting_faces(*body));
   for (int first = 0; first < body->elements.groups(); first += kChunkGroups)
     chunks_.push_back(
         {bodies_.size(), first, std::min(first + kChunkGroups, body->elements.groups())});
   bodies_.push_back(std::move(body));
 }
 
-/// Faces that others may touch: not those that lie on a plane of symmetry.
-std::vector<MeshContact::Face> MeshStep::meeting_faces(const Elements& body) {
-  std::vector<MeshContact::Face> out;
-  for (const MeshContact::Face& face : exposed_faces(body.made_of.mesh)) {
+std::vector<std::array<std::int32_t, 4>> MeshStep::meeting_faces(int s) const {
+  const Elements& body = *bodies_[static_cast<std::size_t>(s)];
+  std::vector<std::array<std::int32_t, 4>> out;
+  for (const auto& face : exposed_faces(body.made_of.mesh)) {
     unsigned planes = ~0U;
     for (const std::int32_t n : face)
       if (n >= 0) planes &= body.on_plane[static_cast<std::size_t>(n)];

@@ -91,9 +91,8 @@ double MeshStep::hourglass_energy() const {
   return sum;
 }
 
-void MeshStep::combine(const std::vector<ElementResult>& results, bool energies) {
-  if (energies) audit_.internal = audit_.unfelt = 0;
-  double law_work = 0;
+void MeshStep::find_limit(const std::vector<ElementResult>& results) {
+  limit_ = {};
   for (std::size_t c = 0; c < results.size(); ++c) {
     const ElementResult& r = results[c];
     if (r.fault.kind != FaultKind::none)
@@ -102,15 +101,22 @@ void MeshStep::combine(const std::vector<ElementResult>& results, bool energies)
       const Elements& body = *bodies_[chunks_[c].body];
       limit_ = {r.max_rate, r.limiter, body.made_of.body, 1.0 * r.limiting};
     }
-    if (!energies) continue;
+  }
+}
+
+void MeshStep::book(const std::vector<ElementResult>& results, const Standing& others) {
+  audit_.internal = others.internal;
+  audit_.unfelt = others.unfelt;
+  double law_work = 0;
+  for (std::size_t c = 0; c < results.size(); ++c) {
+    const ElementResult& r = results[c];
     audit_.internal += r.internal + r.hourglass;
     audit_.book_events(r.ledger);
     if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
     audit_.unfelt += r.internal + r.hourglass;
     law_work += r.ledger.barotropic_work + (r.hourglass - r.hourglass_before);
   }
-  if (!energies) return;
-  audit_.book_laws(law_work, 0.5);  // they are half a step ahead of e
+  audit_.book_laws(law_work, 0.5, others.law_lead);  // they are half a step ahead of e
   audit_.find_unfelt();
 }
 
@@ -120,8 +126,7 @@ void MeshStep::find_forces() {
     const Chunk& chunk = chunks_[c];
     kernels_.forces(data(*bodies_[chunk.body]), chunk.first, chunk.last, results[c]);
   });
-  limit_ = {};
-  combine(results, false);
+  find_limit(results);
 }
 
 /// work(body, first node, last node, sums) in chunks; sums in their order.
@@ -155,7 +160,7 @@ double MeshStep::force(double dt) {
   return dt;
 }
 
-std::vector<MeshNodes> MeshStep::all_nodes() {
+std::vector<MeshNodes> MeshStep::nodes() {
   std::vector<MeshNodes> out;
   for (const auto& b : bodies_)
     out.push_back({b->made_of.body, b->nodes.data(), b->changes.data(), b->node_count});
@@ -163,17 +168,10 @@ std::vector<MeshNodes> MeshStep::all_nodes() {
 }
 
 void MeshStep::meet(double dt) {
-  if (contact_) contact_->push(all_nodes(), dt);
   over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums& sums) {
     hold_planes(b, first, last, sums);
     push_from_sides(b, first, last, dt, sums);
   });
-  if (!contact_) return;
-  const MeshContactWork work = contact_->book(all_nodes());
-  audit_.contact_heat += work.heat;
-  audit_.friction_work += work.friction;
-  audit_.contact_pairs = work.pairs;
-  contact_->give(*impulses_);
 }
 
 void MeshStep::hold_planes(Elements& b, std::size_t first, std::size_t last, WallSums& sums) const {
@@ -232,7 +230,7 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
   }
 }
 
-void MeshStep::move(double dt) {
+Standing MeshStep::move(double dt, const Standing& others) {
   std::size_t most = 0;
   for (const auto& b : bodies_)
     most = std::max(most, static_cast<std::size_t>(b->columns.local_stride));
@@ -252,11 +250,13 @@ void MeshStep::move(double dt) {
         b.node(n)[a] += dt * b.node(n)[4 + a];
       }
   });
-  limit_ = {};
-  combine(results, true);
-  audit_.kinetic = 0;
+  find_limit(results);  // or the fault
+  book(results, others);
+  audit_.kinetic = others.kinetic;
   for (int b = 0; b < set_count(); ++b) audit_.kinetic += totals(b).kinetic;
   find_forces();
+  audit_.contact_pairs = others.contact_pairs;
+  return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};
 }
 
 std::vector<double> MeshStep::state(int s) const {

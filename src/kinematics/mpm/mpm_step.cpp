@@ -101,7 +101,8 @@ void MpmStep::meet(double dt) {
   watch_energy();
 }
 
-void MpmStep::move(double dt) {
+Standing MpmStep::move(double dt, const Standing& others) {
+  others_ = others;
   switch (method_.update) {
     case Update::usl:
       grid_to_particles(
@@ -119,6 +120,7 @@ void MpmStep::move(double dt) {
   last_step_ = dt;
   book();
   migrate();
+  return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};
 }
 
 MpmStep::Constraints MpmStep::constrain(bool projection) {

@@ -36,7 +36,7 @@ void MpmStep::book() {
   audit_.external_work += c.contact.driven;
   audit_.wall_work += c.walls.work;
   audit_.friction_work += c.contact.friction;
-  audit_.contact_pairs = c.contact.nodes;
+  audit_.contact_pairs = others_.contact_pairs + c.contact.nodes;
   book_impulses();
   audit_.wall_columns = c.walls.columns_in_contact;
 }
@@ -45,7 +45,9 @@ void MpmStep::combine_patches(GatherPart part) {
   const bool forces_worked = part != GatherPart::strain_move && part != GatherPart::strain_only;
   const bool strains = part != GatherPart::velocity_only && part != GatherPart::velocity_move &&
                        part != GatherPart::keep_only;
-  audit_.kinetic = audit_.internal = audit_.unfelt = 0;
+  audit_.kinetic = others_.kinetic;
+  audit_.internal = others_.internal;
+  audit_.unfelt = others_.unfelt;
   double law_work = 0;
   limit_ = {};
   for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
@@ -69,7 +71,8 @@ void MpmStep::combine_patches(GatherPart part) {
       limit_ = {r.max_rate, r.limiter, grid_.patches()[p].body, 1.0 * r.limiting_point};
   }
   // e is that of the middle of a step; the laws are half a step ahead of it, under usf behind.
-  if (strains) audit_.book_laws(law_work, method_.update == Update::usf ? -0.5 : 0.5);
+  if (strains)
+    audit_.book_laws(law_work, method_.update == Update::usf ? -0.5 : 0.5, others_.law_lead);
   // The points of a fixed reference cross no cell, but bodies must see each other before they meet.
   if (reference_contact_ && reference_contact_->travel_rate() > limit_.rate)
     limit_ = {reference_contact_->travel_rate(), 1, limit_.body, limit_.id};

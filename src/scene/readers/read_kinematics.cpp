@@ -93,6 +93,19 @@ void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
     body.point_estimate *= counts[static_cast<std::size_t>(a)];
 }
 
+/// What bodies of elements ask of those of points.
+template <class Fail>
+void check_among_points(const Fail& fail, const Scene& scene) {
+  if (!scene.contact.active)
+    fail("meets bodies of points by contact only: add a block contact: {friction: 0}");
+  const MethodOptions& method = scene.method;
+  if (method.shape != Shape::quadratic_bspline || method.update != Update::usl ||
+      method.transfer == Transfer::xpic)
+    fail(
+        "meets bodies of points whose method has shape quadratic_bspline, update usl and a "
+        "transfer other than xpic");
+}
+
 /// What the whole scene must be.
 void check_alone(const Node& place, Reading& reading) {
   const Scene& scene = reading.scene;
@@ -101,9 +114,7 @@ void check_alone(const Node& place, Reading& reading) {
   };
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
                   [](const BodyOptions& body) { return !body.mesh; }))
-    fail(
-        "does not meet bodies of points yet: give every body of the scene kinematics: "
-        "lagrangian_mesh, or none");
+    check_among_points(fail, scene);
   if (scene.method.reference != Reference::current)
     fail("knows the current configuration only: leave out method.reference");
   if (scene.body_force || scene.loads.any())

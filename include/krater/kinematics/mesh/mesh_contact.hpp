@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file kinematics/mesh/mesh_contact.hpp
-/// Contact of bodies of elements: they meet at the nodes of a grid of their own, presented by
-/// carriers q, samples of their exposed faces with area vector A_q N_q and the share
+/// Contact of bodies of elements, with each other and with bodies of points: they meet at the nodes
+/// of the grid, presented by carriers q, samples of their exposed faces with area vector A_q N_q
+/// and the share
 ///   m_qI = m_I N_I(q) A_q / sum_q' N_I(q') A_q'
 /// of the nodes I of the face. Nodes deep inside do not take part: were all of them pushed, bodies
 /// would lose a fourth of their energy and creep into each other under a lasting load. At a node i
@@ -19,63 +20,69 @@
 /// which keeps momentum exactly and never gives energy; as it smooths over a cell, there are three
 /// passes. What is lost of motion is heat of the nodes that were pushed, by m_I |dv_I|^2.
 /// Angular momentum is kept but for what the two impulses of a node make, acting at xbar_A and
-/// xbar_B. A body does not meet itself.
+/// xbar_B. A body does not meet itself. At planes of symmetry the grid's sums are folded: what a
+/// carrier has beyond is the image of what is inside.
+///
+/// Points. A node of their velocity field (contact/contact.hpp) is a side whose mass and velocity
+/// are the node's own, pushed as it is. Its face lies where its filling phi says, along the grid
+/// axis next to n (contact/joint_profile.hpp); the mesh's face is known, so only one of two is
+/// found from fillings. With k_B of the mesh's faces, n = N_B/|N_B| where they are flat, and else
+///   n ~ k_B^40 N_B/|N_B| + k_A^40 grad phi_A/|grad phi_A|,
+/// k_A = |grad phi_A| by that of a flat face, at the node next to it: at corners and edges of the
+/// mesh the points decide if they are flatter. Fillings miss a face by some hundredths of a cell:
+/// closer than kTouch they touch, and an overlap is not taken back.
+///
+/// Rigid bodies of points are sides without inertia of their own (contact/rigid.hpp); velocities
+/// that nodes meet are foretold in every pass.
 #include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "krater/contact/contact.hpp"
 #include "krater/contact/impulses.hpp"
 #include "krater/contact/options.hpp"
 #include "krater/geometry/frame.hpp"
-#include "krater/kinematics/mesh/mesh.hpp"
+#include "krater/kinematics/kinematics.hpp"
+#include "krater/kinematics/mesh/mesh_step.hpp"
 
 namespace krater {
 
-/// The nodes of a body, as a step holds them.
-struct MeshNodes {
-  int body;         ///< in the scene
-  double* records;  ///< 8 per node: x, m, v, heat per mass of the step
-  double* changes;  ///< 4 per node: dv of the step so far
-  std::size_t count;
-};
-
-/// What contact did in a step.
-struct MeshContactWork {
-  double heat = 0;      ///< taken from motion [J]
-  double friction = 0;  ///< work of the tangential impulses, about [J]
-  double pairs = 0;     ///< places where two bodies pushed
-};
-
-class MeshContact {
+class MeshContact final : public Encounter {
  public:
-  /// `cell`: of the grid on which bodies meet.
-  MeshContact(Frame frame, double cell, const ContactOptions& options)
-      : frame_{frame}, dim_{dimension(frame)}, cell_{cell}, options_{options} {}
+  /// What must outlive it. `grid` holds the velocity fields of all bodies of points, each its own.
+  struct Parts {
+    MeshStep& mesh;
+    BlockGrid& grid;
+    const ContactSet& fillings;
+    const BoundarySet& boundary;
+    RigidBodies& rigid;
+    Audit& audit;
+    Impulses& impulses;
+  };
+  MeshContact(Frame frame, const ContactOptions& options, const Parts& parts);
 
-  using Face = std::array<std::int32_t, 4>;
-  /// The faces by which the next body meets others (exposed_faces(), without those on planes of
-  /// symmetry).
-  void add(std::vector<Face> faces) { faces_.push_back(std::move(faces)); }
-  /// Changes dv of the nodes where bodies touch.
-  void push(const std::vector<MeshNodes>& bodies, double dt);
-  /// When every dv is final: what contact took from motion becomes heat of the nodes.
-  MeshContactWork book(const std::vector<MeshNodes>& bodies);
-  /// Adds what bodies gave each other in the last step.
-  void give(Impulses& impulses) const { impulses.add(given_); }
+  void push(double dt) override;
+  Standing book() override;
 
   static constexpr std::size_t kSupport = 3;  ///< nodes of S along an axis
 
  private:
+  using Face = std::array<std::int32_t, 4>;
+  using Index = std::array<int, 3>;  ///< of a node of the grid, as stored
+  struct Reached {
+    std::int32_t node;   ///< of those that carriers reach
+    std::uint8_t flips;  ///< bit per axis: seen in the plane of symmetry across it
+  };
   struct Carrier {
-    std::size_t body;  ///< among those given
+    std::size_t body;  ///< among those of elements
     Face nodes;
     std::array<double, 4> share;  ///< m_qI
     std::size_t corners;
     Triple x, area;  ///< A N
-    std::array<std::int64_t, 3> base;
+    Index base;
     std::array<std::array<double, kSupport>, 3> weight;
-    std::array<std::int32_t, 27> at;  ///< nodes of the grid, in order of their weights
+    std::array<Reached, 27> at;  ///< nodes of the grid, in order of their weights
   };
   /// A body at a node of the grid.
   struct Presence {
@@ -83,19 +90,30 @@ class MeshContact {
     double whole = 0;  ///< sum of areas
     bool here = false;
   };
+  static constexpr std::size_t kPoints = ~std::size_t{0};
   /// One side of a meeting.
   struct Side {
-    std::size_t body = 0;
+    std::size_t body = kPoints;  ///< among those of elements
+    int of_scene = -1;
+    double* record = nullptr;  ///< of the node, of points
     double mass = 0, weight = 0;
     Triple place{}, momentum{}, change{};
   };
-  /// Two bodies at a node of the grid.
+  /// Two bodies at a node of the grid; the second may be one of points.
   struct Meeting {
     std::int32_t node;
     std::array<Side, 2> side;
     Triple normal;  ///< from the first to the second
     double gap = 0;
     Triple impulse{};  ///< on the first, of the step
+    bool rigid = false;
+  };
+  /// A rigid body in a pass.
+  struct RigidPart {
+    int body;
+    RigidTwist twist;                                                 ///< that its meetings find
+    RigidImpulse sum;                                                 ///< on it
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pushes;  ///< place, impulse on others
   };
   struct Touched {
     std::size_t body;
@@ -103,37 +121,58 @@ class MeshContact {
     Triple by_contact;  ///< dv
   };
 
-  void find_carriers(const std::vector<MeshNodes>& bodies);
+  void find_carriers();
   void sample(const MeshNodes& nodes, std::size_t body, const Face& face);
-  void share_masses(const std::vector<MeshNodes>& bodies);
+  void share_masses();
   void number_nodes();
+  Reached inside(Index& index) const;
   void find_meetings();
+  void meet_points(std::int32_t node, std::size_t body, const Presence& presence);
+  bool find_normal(std::int32_t node, Triple& n) const;
   void weigh();
+  double reach_of_points(const Meeting& meeting, const Triple& face) const;
+  Triple gradient_of_points(const Index& index, int body) const;
+  std::array<double, 5> fillings_along(std::size_t axis, Index at, int body) const;
+  double flatness_of_points(Index index, int body, Triple& inwards) const;
+  Triple place_of_node(const Index& index) const;
   /// dv of the nodes that may be pushed into by_contact, with a sign.
-  void note_changes(const std::vector<MeshNodes>& bodies, double sign);
-  void list_touched(const std::vector<MeshNodes>& bodies);
-  void pass(const std::vector<MeshNodes>& bodies, double dt);
-  void exchange(Meeting& meeting, double mu, double dt);
-  double friction_between(const std::vector<MeshNodes>& bodies, const Meeting& meeting) const;
+  void note_changes(double sign);
+  void list_touched();
+  void pass(double dt);
+  void exchange(Meeting& meeting, double dt);
+  double allowed(const Meeting& meeting, double closing, double dt) const;
+  double friction_between(const Meeting& meeting) const;
+  void note_impulses();
+  void foretell(double dt);
+  RigidMeeting meet(const Meeting& meeting, const RigidPart& part, double dt) const;
+  RigidPart& rigid_part(int body);
+  void exchange_rigid(Meeting& meeting, double dt);
+  void hand_over();
   std::size_t reached() const { return dim_ == 3 ? 27 : 9; }
-  /// visit(meeting, side, S, A N . n outwards) for all that a carrier takes part in.
+  /// visit(meeting, side, S, A N . n outwards, flips) for all that a carrier takes part in.
   template <class Visit>
   void for_each_meeting(const Carrier& carrier, const Visit& visit);
 
   Frame frame_;
   int dim_;
   double cell_;
+  GridGeometry geometry_;
+  BoundaryConditions conditions_;
   ContactOptions options_;
-  std::vector<std::vector<Face>> faces_;
+  Parts parts_;
+  std::vector<std::vector<Face>> faces_;  ///< by which bodies of elements meet others
   // Of the step:
+  std::vector<MeshNodes> bodies_;
+  std::vector<int> of_points_;  ///< bodies of points near one of elements
   std::vector<Carrier> carriers_;
-  std::size_t grid_nodes_ = 0;
+  std::vector<Index> places_;                ///< nodes of the grid that carriers reach
   std::vector<Presence> present_;            ///< per node of the grid and body
   std::vector<Meeting> meetings_;            ///< in order of nodes
   std::vector<std::int32_t> first_meeting_;  ///< per node of the grid, and the end
   std::vector<Touched> touched_;
   std::vector<ImpulsePair> given_;
-  double friction_ = 0, pairs_ = 0;
+  std::vector<RigidPart> rigid_parts_;
+  double friction_ = 0, pairs_ = 0, rigid_work_ = 0;
 };
 
 }  // namespace krater

@@ -8,8 +8,8 @@
 /// node pass, x + dt v+ on its plane, with Coulomb friction, and never pulls; sticky holds a node
 /// whole from when it touches. What that takes from the motion of a node is heat of its elements.
 /// Kinetic + internal + hourglass energy is constant to round-off.
-/// Bodies meet by their faces (kinematics/mesh/mesh_contact.hpp), after the forces and before the
-/// sides. Not here: driven sides, fixed references (issue 28).
+/// Bodies meet each other and those of points by their faces (kinematics/mesh/mesh_contact.hpp).
+/// Not here: driven sides, fixed references (issue 28).
 #include <array>
 #include <memory>
 #include <vector>
@@ -20,7 +20,6 @@
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/kinematics.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
-#include "krater/kinematics/mesh/mesh_contact.hpp"
 #include "krater/kinematics/mesh/mesh_health.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
 
@@ -52,6 +51,14 @@ struct NodeTotals {
   double angular_momentum = 0;  ///< about the origin, of the first two axes
 };
 
+/// The nodes of a body, as a step holds them.
+struct MeshNodes {
+  int body;         ///< in the scene
+  double* records;  ///< 8 per node: x, m, v, heat per mass of the step
+  double* changes;  ///< 4 per node: dv of the step so far
+  std::size_t count;
+};
+
 /// Thrown by move(): element `element` of set `set`.
 struct ElementFault {
   int set;
@@ -69,15 +76,13 @@ class MeshStep final : public Kinematics {
   MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit);
   ~MeshStep() override;
 
-  /// Bodies meet on a grid of such cells, and tell `impulses`; before the first body.
-  void set_contact(double cell, const ContactOptions& options, Impulses& impulses);
   /// Throws InputError where an element has no volume or a node no element.
   void add(ElementBody body);
   void start();  ///< after the last body: forces, energies, and the first limit of the step
 
   double force(double dt) override;
   void meet(double dt) override;
-  void move(double dt) override;
+  Standing move(double dt, const Standing& others) override;
   const TimeStepLimit& limit() const override { return limit_; }
   int set_count() const override { return static_cast<int>(bodies_.size()); }
   PointSet set(int s) const override;
@@ -86,6 +91,9 @@ class MeshStep final : public Kinematics {
   void find_forces();
 
   const std::vector<std::array<std::int32_t, 2>>& surface(int s) const;  ///< edges, by nodes
+  std::vector<MeshNodes> nodes();  ///< of all bodies, in the order of the sets
+  /// Faces that others may touch (exposed_faces()): not those that lie on a plane of symmetry.
+  std::vector<std::array<std::int32_t, 4>> meeting_faces(int s) const;
   NodeTotals totals(int s) const;
   double internal_energy(int s) const;  ///< hourglass energy included [J]
   /// Nodes, and what elements hold beside their columns; find_forces() after it was put back.
@@ -118,7 +126,6 @@ class MeshStep final : public Kinematics {
     int first, last;
   };
   ElementScratch scratch();
-  std::vector<MeshNodes> all_nodes();
   ElementData data(Elements& body);
   void hold_planes(Elements& body, std::size_t first, std::size_t last, WallSums& sums) const;
   Triple push_of(const PushingSide& side, double missing, const double* node,
@@ -126,10 +133,10 @@ class MeshStep final : public Kinematics {
   void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
-  static std::vector<MeshContact::Face> meeting_faces(const Elements& body);
   template <class Work>
   void over_nodes(const Work& work);
-  void combine(const std::vector<ElementResult>& results, bool energies);
+  void find_limit(const std::vector<ElementResult>& results);
+  void book(const std::vector<ElementResult>& results, const Standing& others);
 
   Domain domain_;
   int dim_;
@@ -138,8 +145,6 @@ class MeshStep final : public Kinematics {
   Audit& audit_;
   std::vector<std::unique_ptr<Elements>> bodies_;
   std::vector<Chunk> chunks_;
-  std::unique_ptr<MeshContact> contact_;
-  Impulses* impulses_ = nullptr;
   std::vector<AlignedBuffer> scratch_;
   TimeStepLimit limit_;
 };

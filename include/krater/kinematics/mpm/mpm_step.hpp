@@ -66,8 +66,8 @@ class MpmStep final : public Kinematics {
   /// Halved, and halved again, while the grid's change of velocity would move material by more than
   /// 0.3 cells. Throws StepFault.
   double force(double dt) override;
-  void meet(double dt) override;  ///< throws EnergyError
-  void move(double dt) override;  ///< throws StepFault
+  void meet(double dt) override;                              ///< throws EnergyError
+  Standing move(double dt, const Standing& others) override;  ///< throws StepFault
   const TimeStepLimit& limit() const override { return limit_; }
 
   int set_count() const override { return static_cast<int>(grid_.patches().size()); }
@@ -170,6 +170,7 @@ class MpmStep final : public Kinematics {
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
 
   Audit& audit_;
+  Standing others_;  ///< of what moved before in this step
   NodeLoads& loads_;
   Impulses& impulses_;
   std::unique_ptr<ReferenceContact> reference_contact_;  ///< null: nodes are where material is

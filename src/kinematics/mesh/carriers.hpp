@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// What the parts of mesh_contact.hpp share.
+#include <cmath>
+#include <cstddef>
+
+#include "kinematics/mesh/elements.hpp"
+#include "krater/kinematics/mesh/mesh_contact.hpp"
+
+namespace krater {
+
+inline constexpr std::size_t kMass = 3, kVelocity = 4, kHeat = 7;  ///< in the record of a node
+
+inline double dot(const Triple& a, const Triple& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline void add_to(Triple& sum, double k, const Triple& x) {
+  for (std::size_t a = 0; a < 3; ++a) sum[a] += k * x[a];
+}
+inline Triple minus(const Triple& a, const Triple& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline double length_of(const Triple& a) { return std::sqrt(dot(a, a)); }
+
+/// The image of a vector in planes of symmetry across the axes of `flips`.
+inline Triple reflected(Triple x, unsigned flips) {
+  for (std::size_t a = 0; flips >> a != 0; ++a)
+    if ((flips >> a & 1U) != 0) x[a] = -x[a];
+  return x;
+}
+
+/// S of a carrier at the nodes it reaches, in their order.
+template <class Carrier>
+double weight_at(const Carrier& q, int dim, std::size_t n) {
+  if (dim == 2) return q.weight[0][n / 3] * q.weight[1][n % 3];
+  return q.weight[0][n / 9] * q.weight[1][n / 3 % 3] * q.weight[2][n % 3];
+}
+
+template <class Visit>
+void MeshContact::for_each_meeting(const Carrier& q, const Visit& visit) {
+  constexpr double kAway = -0.5;  // N . n of what looks away
+  const double away = kAway * length_of(q.area);
+  for (std::size_t n = 0; n < reached(); ++n) {
+    const auto node = static_cast<std::size_t>(q.at[n].node);
+    for (std::int32_t k = first_meeting_[node]; k < first_meeting_[node + 1]; ++k) {
+      Meeting& m = meetings_[static_cast<std::size_t>(k)];
+      for (std::size_t s = 0; s < 2; ++s) {
+        if (m.side[s].body != q.body) continue;
+        const double across = (s == 0 ? 1 : -1) * dot(reflected(q.area, q.at[n].flips), m.normal);
+        if (across >= away) visit(m, m.side[s], weight_at(q, dim_, n), across, q.at[n].flips);
+      }
+    }
+  }
+}
+
+}  // namespace krater
