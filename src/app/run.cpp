@@ -365,9 +365,11 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (outcomes_.answered())
     tell(fmt::format("stopped at {:.4g} s of {:.4g} s: {}", sim_.time(), scene_.time.end,
                      outcomes_.answer()));
-  const double failed = sim_.audit().removed_failed;
+  const Eroded eroded = sim_.mesh() != nullptr ? sim_.mesh()->eroded() : Eroded{};
+  const double failed = sim_.audit().removed_failed - eroded.all();
   if (failed > 0)
     tell(fmt::format("note: {:.0f} points failed and were removed, as the scene asks", failed));
+  if (eroded.all() > 0) tell("note: " + describe_eroded(eroded));
   const std::vector<Warning>& warnings = sim_.warnings().all();
   for (const Warning& warning : warnings) tell_always("warning: " + sentence(warning));
   const std::string with = warnings.empty() ? ""

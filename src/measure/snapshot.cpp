@@ -130,9 +130,14 @@ FrameMesh frame_mesh(const Simulation& sim, int s) {
   FrameMesh out;
   out.nodes = step.node_count(s);
   out.corners = mesh.corners();
-  out.connectivity = [&mesh](std::size_t first, std::size_t count, std::int64_t* to) {
+  const auto order = std::make_shared<std::vector<std::pair<int, int>>>(
+      sim.points_by_id(sim.set(s).body));  // of the rows; eroded bodies keep no order
+  out.connectivity = [&mesh, order](std::size_t first, std::size_t count, std::int64_t* to) {
     const auto corners = static_cast<std::size_t>(mesh.corners());
-    std::copy_n(mesh.elements.data() + first * corners, count * corners, to);
+    for (std::size_t row = first; row < first + count; ++row)
+      to = std::copy_n(
+          mesh.elements.data() + static_cast<std::size_t>((*order)[row].second) * corners, corners,
+          to);
   };
   out.coordinates = numbered_rows<double>(
       3, [&step, s, frame](std::size_t n, double* row) { widen(frame, step.position(s, n), row); });
@@ -213,6 +218,7 @@ double deviatoric_energy(const Simulation& sim) {
 void add_elements(const Simulation& sim, std::vector<Quantity>& row) {
   add(row, "hourglass_energy", "J", sim.elements().hourglass);
   add(row, "folded_elements", "1", static_cast<double>(sim.elements().folded));
+  add(row, "eroded_elements", "1", sim.mesh()->eroded().all());
 }
 
 void add_elements(const Simulation& sim, Json& j) {
@@ -222,6 +228,12 @@ void add_elements(const Simulation& sim, Json& j) {
   j["folded_elements"] = Json::of(static_cast<std::int64_t>(mesh.folded));
   j["most_folded_elements"] = Json::of(static_cast<std::int64_t>(sim.audit().most_folded));
   j["least_corner_jacobian"] = Json::of(mesh.least_corner);
+  const Eroded eroded = sim.mesh()->eroded();
+  j["eroded_elements"] = Json::of(static_cast<std::int64_t>(eroded.all()));
+  if (!(eroded.all() > 0)) return;
+  Json& causes = j["eroded_by"];
+  for (std::size_t k = 0; k < Eroded::parts.size(); ++k)
+    causes[Eroded::names[k]] = Json::of(static_cast<std::int64_t>(eroded.*Eroded::parts[k]));
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ void Simulation::place_meshes() {
                      .q_lin = plan.q_lin,
                      .q_quad = plan.q_quad,
                      .barotropic = kernel_data_[b].heat_floor == nullptr,
-                     .held = body.options().mesh->hourglass};
+                     .held = body.options().mesh->hourglass,
+                     .erosion = body.options().mesh->erosion};
     made.velocities = velocities_of(body.options(), made.mesh);
     mesh_->add(std::move(made));
   }
@@ -97,12 +98,13 @@ void Simulation::restore_mesh(int b, const Checkpoint& checkpoint) {
   const CheckpointBlob* points = checkpoint.find("bodies/" + body.name() + "/points");
   const CheckpointBlob* mesh = checkpoint.find("bodies/" + body.name() + "/mesh");
   const std::vector<int> sets = sets_of(b);
-  if (points == nullptr || mesh == nullptr)
-    throw InputError("checkpoint: body '" + body.name() + "' has another mesh there");
+  const InputError other{"checkpoint: body '" + body.name() + "' has another mesh there"};
+  if (points == nullptr || mesh == nullptr || points->shape.size() != 2) throw other;
+  for (const int s : sets)
+    if (!mesh_->set_count(s, points->shape[1])) throw other;
   restore_columns(*points, body, sets);
   for (const int s : sets) {
-    if (!mesh_->set_state(s, mesh->doubles))
-      throw InputError("checkpoint: body '" + body.name() + "' has another mesh there");
+    if (!mesh_->set_state(s, mesh->doubles)) throw other;
     mesh_->pad(s);
   }
   mesh_->find_forces();

@@ -49,7 +49,8 @@ MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& ove
                    .shear_modulus = material.shear_modulus,
                    .q_lin = plan.q_lin,
                    .q_quad = plan.q_quad,
-                   .held = held};
+                   .held = held,
+                   .erosion = {}};
   for (const Triple& x : mesh.nodes)
     made.velocities.push_back(body.velocity ? (*body.velocity)(x, x, 0) : Triple{});
   step_->add(std::move(made));

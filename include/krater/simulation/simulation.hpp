@@ -93,6 +93,9 @@ class Simulation {
     return s < mesh_sets() ? mesh_->set(s) : step_->set(s - mesh_sets());
   }
   const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
+  bool is_mesh(int body) const {
+    return bodies_[static_cast<std::size_t>(body)]->options().mesh.has_value();
+  }
   /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
   /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
@@ -108,9 +111,6 @@ class Simulation {
 
  private:
   int mesh_sets() const { return mesh_ ? mesh_->set_count() : 0; }
-  bool is_mesh(int body) const {
-    return bodies_[static_cast<std::size_t>(body)]->options().mesh.has_value();
-  }
   PointStore& change(int s) {
     return s < mesh_sets() ? mesh_->change(s) : step_->change(s - mesh_sets());
   }

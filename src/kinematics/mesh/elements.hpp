@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "krater/kinematics/mesh/erosion.hpp"
 #include "krater/kinematics/mesh/mesh_step.hpp"
 
 namespace krater {
@@ -22,7 +23,12 @@ struct MeshStep::Elements {
   AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes;
   std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
   std::size_t node_count = 0;
-  std::vector<std::array<std::int32_t, 2>> surface;
+  mutable std::vector<std::array<std::int32_t, 2>> surface;  ///< found when it is asked for
+  // Of a body that erodes:
+  ElementNeighbours first;
+  std::vector<double> orphaned;  ///< per node: mass of its eroded elements [kg]
+  Eroded eroded;
+  bool erodes() const { return made_of.erosion.any(); }
 
   std::size_t corner_count() const { return static_cast<std::size_t>(made_of.mesh.corners()); }
   /// What elements keep from step to step beside their columns, and its length.
@@ -55,8 +61,13 @@ struct MeshStep::Elements {
                       modes = self.made_of.mesh.dimension == 3 ? 12 : 2;
     visit(self.hourglass, groups * modes * kLanes);
     visit(self.hourglass_energy, groups * kLanes);
-    visit(self.remembered, groups * 2 * kLanes);
+    visit(self.remembered, groups * kRemembered * kLanes);
   }
 };
+
+/// The exposed faces of what there is now.
+std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& body);
+/// Which elements there are, and where, from their numbers, which were put back.
+void find_again(MeshStep::Elements& body);
 
 }  // namespace krater

@@ -67,22 +67,18 @@ NodeCorners node_corners(const Mesh& mesh) {
   return out;
 }
 
-namespace {
-
-/// Corners of the faces of an element, in order around each.
-std::vector<std::vector<std::size_t>> faces_of(int dimension) {
-  if (dimension == 2) return {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-  return {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+const std::vector<std::vector<std::size_t>>& element_faces(int dimension) {
+  static const std::vector<std::vector<std::size_t>> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
+      faces{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  return dimension == 2 ? edges : faces;
 }
-
-}  // namespace
 
 std::vector<std::array<std::int32_t, 4>> exposed_faces(const Mesh& mesh) {
   const auto corners = static_cast<std::size_t>(mesh.corners());
   using Face = std::array<std::int32_t, 4>;
   std::map<Face, std::pair<int, Face>> faces;
   for (std::size_t e = 0; e < mesh.element_count(); ++e)
-    for (const auto& face : faces_of(mesh.dimension)) {
+    for (const auto& face : element_faces(mesh.dimension)) {
       Face around{-1, -1, -1, -1};
       for (std::size_t k = 0; k < face.size(); ++k)
         around[k] = mesh.elements[e * corners + face[k]];
@@ -98,9 +94,10 @@ std::vector<std::array<std::int32_t, 4>> exposed_faces(const Mesh& mesh) {
   return exposed;
 }
 
-std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh) {
+std::vector<std::array<std::int32_t, 2>> surface_edges(
+    const std::vector<std::array<std::int32_t, 4>>& faces) {
   std::set<std::array<std::int32_t, 2>> edges;
-  for (const auto& face : exposed_faces(mesh)) {
+  for (const auto& face : faces) {
     const std::size_t corners = face[2] < 0 ? 2 : 4;
     for (std::size_t k = 0; k < corners; ++k) {
       const std::int32_t a = face[k], b = face[(k + 1) % corners];

@@ -87,9 +87,10 @@ void sort_by_lanes(const std::vector<double>& volumes, MeshStep::Elements& body)
   body.forces.reserve(groups * corners * dim * kLanes);
   body.hourglass.reserve(groups * (dim == 3 ? 12 : 2) * kLanes);
   body.hourglass_energy.reserve(groups * kLanes);
-  body.remembered.reserve(groups * 2 * kLanes);
+  body.remembered.reserve(groups * kRemembered * kLanes);
   for (std::size_t g = 0; g < groups; ++g)
-    std::fill_n(body.remembered.data() + 2 * g * kLanes, kLanes, body.made_of.shear_modulus);
+    std::fill_n(body.remembered.data() + kRemembered * g * kLanes, kLanes,
+                body.made_of.shear_modulus);
 }
 
 void place_nodes(const std::vector<double>& volumes, MeshStep::Elements& body) {
@@ -158,23 +159,37 @@ void MeshStep::add(ElementBody made_of) {
   body->elements.pad(body->columns.mass);
   sort_by_lanes(volumes, *body);
   place_nodes(volumes, *body);
-  body->surface = surface_edges(m.mesh);
   note_planes(*body);
-  for (int first = 0; first < body->elements.groups(); first += kChunkGroups)
-    chunks_.push_back(
-        {bodies_.size(), first, std::min(first + kChunkGroups, body->elements.groups())});
+  if (body->erodes()) {
+    body->first = find_neighbours(m.mesh);
+    for (const double volume : volumes) body->first.shares.push_back(m.density * volume);
+    body->orphaned.assign(body->node_count, 0.0);
+  }
   bodies_.push_back(std::move(body));
+  make_chunks();
+}
+
+void MeshStep::make_chunks() {
+  chunks_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const int groups = bodies_[b]->elements.groups();
+    for (int first = 0; first < groups; first += kChunkGroups)
+      chunks_.push_back({b, first, std::min(first + kChunkGroups, groups)});
+  }
 }
 
 std::vector<std::array<std::int32_t, 4>> MeshStep::meeting_faces(int s) const {
   const Elements& body = *bodies_[static_cast<std::size_t>(s)];
   std::vector<std::array<std::int32_t, 4>> out;
-  for (const auto& face : exposed_faces(body.made_of.mesh)) {
+  for (const auto& face : faces_of(body)) {
     unsigned planes = ~0U;
     for (const std::int32_t n : face)
       if (n >= 0) planes &= body.on_plane[static_cast<std::size_t>(n)];
     if (planes == 0) out.push_back(face);
   }
+  for (std::size_t n = 0; body.erodes() && n < body.node_count; ++n)
+    if (body.corners_of.first[n] == body.corners_of.first[n + 1])
+      out.push_back({static_cast<std::int32_t>(n), -1, -1, -1});
   return out;
 }
 

@@ -36,8 +36,10 @@ struct Bounds {
   }
 };
 
-/// Bilinear functions of a face's corners, or linear ones of an edge's, at a point of [0, 1]^2.
+/// Bilinear functions of a face's corners, or linear ones of an edge's, at a point of [0, 1]^2; a
+/// node on its own has one corner.
 std::array<double, 4> functions_at(std::size_t corners, double s, double t) {
+  if (corners == 1) return {1, 0, 0, 0};
   if (corners == 2) return {1 - s, s, 0, 0};
   return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
 }
@@ -97,15 +99,16 @@ void MeshContact::find_carriers() {
 
 /// Carriers of one face, no further apart than a cell.
 void MeshContact::sample(const MeshNodes& nodes, std::size_t body, const Face& face) {
-  const std::size_t corners = face[2] < 0 ? 2 : 4;
+  const std::size_t corners = face[1] < 0 ? 1 : face[2] < 0 ? 2 : 4;
   std::array<Triple, 4> x{};
   for (std::size_t I = 0; I < corners; ++I) x[I] = place_of(nodes, face[I]);
   const auto count = [&](const Triple& along, const Triple& beside) {
     const double length = std::sqrt(std::max(dot(along, along), dot(beside, beside)));
     return std::clamp(static_cast<int>(std::ceil(length / cell_)), 1, 64);
   };
-  const int ns = count(minus(x[1], x[0]), corners == 2 ? Triple{} : minus(x[2], x[3]));
-  const int nt = corners == 2 ? 1 : count(minus(x[3], x[0]), minus(x[2], x[1]));
+  const int ns =
+      corners == 1 ? 1 : count(minus(x[1], x[0]), corners == 2 ? Triple{} : minus(x[2], x[3]));
+  const int nt = corners < 4 ? 1 : count(minus(x[3], x[0]), minus(x[2], x[1]));
   for (int i = 0; i < ns; ++i)
     for (int j = 0; j < nt; ++j) {
       const double s = (i + 0.5) / ns, t = (j + 0.5) / nt;
@@ -120,7 +123,7 @@ void MeshContact::sample(const MeshNodes& nodes, std::size_t body, const Face& f
         const Triple along = minus(x[1], x[0]);
         const double round = frame_ == Frame::axisymmetric ? 2 * std::numbers::pi * q.x[0] : 1.0;
         q.area = {round * along[1] / ns, -round * along[0] / ns, 0};
-      } else {
+      } else if (corners == 4) {
         add_to(by_s, 1 - t, minus(x[1], x[0]));
         add_to(by_s, t, minus(x[2], x[3]));
         add_to(by_t, 1 - s, minus(x[3], x[0]));
@@ -149,7 +152,9 @@ void MeshContact::share_masses() {
     for (std::size_t I = 0; I < q.corners; ++I) {
       const auto n = static_cast<std::size_t>(q.nodes[I]);
       const double all = whole[q.body][n];
-      const double part = all > 0 ? q.share[I] * length_of(q.area) / all : 0.0;
+      const double part = q.corners == 1 ? 1.0
+                          : all > 0      ? q.share[I] * length_of(q.area) / all
+                                         : 0.0;
       q.share[I] = bodies_[q.body].records[kNode * n + kMass] * part;
     }
 }

@@ -26,11 +26,19 @@ MeshContact::MeshContact(Frame frame, const ContactOptions& options, const Parts
       conditions_{parts.boundary.conditions()},
       options_{options},
       parts_{parts} {
-  for (int s = 0; s < parts.mesh.set_count(); ++s) faces_.push_back(parts.mesh.meeting_faces(s));
+  find_faces();
+}
+
+void MeshContact::find_faces() {
+  if (!faces_.empty() && shape_ == parts_.mesh.shape_changes()) return;
+  shape_ = parts_.mesh.shape_changes();
+  faces_.clear();
+  for (int s = 0; s < parts_.mesh.set_count(); ++s) faces_.push_back(parts_.mesh.meeting_faces(s));
 }
 
 void MeshContact::push(double dt) {
   bodies_ = parts_.mesh.nodes();
+  find_faces();
   carriers_.clear();
   meetings_.clear();
   touched_.clear();

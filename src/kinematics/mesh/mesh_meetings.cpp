@@ -89,9 +89,8 @@ bool MeshContact::find_normal(std::int32_t node, Triple& n) const {
 
 /// Meetings of a body of elements with those of points that have mass at the node.
 void MeshContact::meet_points(std::int32_t node, std::size_t body, const Presence& presence) {
-  const double length = length_of(presence.area);
-  if (!(length > 0)) return;
-  const double flatness = length / presence.whole;
+  const double length = length_of(presence.area),
+               flatness = presence.whole > 0 ? length / presence.whole : 0;
   const Index& index = places_[static_cast<std::size_t>(node)];
   for (const int other : of_points_) {
     double* record = parts_.grid.find_node(index, own_field(other));
@@ -104,7 +103,7 @@ void MeshContact::meet_points(std::int32_t node, std::size_t body, const Presenc
     m.side[1].mass = record[moved::mass];
     m.side[1].weight = 1;
     m.rigid = parts_.rigid.find(other) != nullptr;
-    add_to(m.normal, fortieth(flatness) / length, presence.area);
+    if (length > 0) add_to(m.normal, fortieth(flatness) / length, presence.area);
     if (flatness < 1 - kFlat) {
       Triple inwards{};
       const double flat = flatness_of_points(index, other, inwards);
@@ -177,7 +176,7 @@ void MeshContact::weigh() {
     const double squared = dot(q.area, q.area);
     for_each_meeting(q, [&](Meeting&, Side& side, double S, double across, unsigned flips) {
       side.mass += S * mass;
-      const double look = across > 0 && squared > 0 ? across * across / squared : 0;
+      const double look = q.corners == 1 ? 1 : across > 0 ? across * across / squared : 0;
       side.weight += S * mass * look;
       Triple x = q.x;
       for (std::size_t a = 0; flips >> a != 0; ++a)

@@ -99,7 +99,8 @@ void MeshStep::find_limit(const std::vector<ElementResult>& results) {
       throw ElementFault{static_cast<int>(chunks_[c].body), r.fault};
     if (r.max_rate > limit_.rate) {
       const Elements& body = *bodies_[chunks_[c].body];
-      limit_ = {r.max_rate, r.limiter, body.made_of.body, 1.0 * r.limiting};
+      limit_ = {r.max_rate, r.limiter, body.made_of.body,
+                body.elements.at(body.columns.id, r.limiting)};
     }
   }
 }
@@ -254,6 +255,7 @@ Standing MeshStep::move(double dt, const Standing& others) {
   book(results, others);
   audit_.kinetic = others.kinetic;
   for (int b = 0; b < set_count(); ++b) audit_.kinetic += totals(b).kinetic;
+  erode();
   find_forces();
   audit_.contact_pairs = others.contact_pairs;
   return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};
@@ -265,12 +267,16 @@ std::vector<double> MeshStep::state(int s) const {
   b.for_each_record([&out](const AlignedBuffer& from, std::size_t count) {
     out.insert(out.end(), from.data(), from.data() + count);
   });
+  for (const auto part : Eroded::parts)
+    if (b.erodes()) out.push_back(b.eroded.*part);
   return out;
 }
 
 bool MeshStep::set_state(int s, const std::vector<double>& state) {
   Elements& b = *bodies_[static_cast<std::size_t>(s)];
   if (state.size() != this->state(s).size()) return false;
+  if (b.erodes()) find_again(b);
+  ++shape_changes_;
   const double* from = state.data();
   std::copy_n(from, kNode * b.node_count, b.nodes.data());
   from += kNode * b.node_count;
@@ -278,11 +284,15 @@ bool MeshStep::set_state(int s, const std::vector<double>& state) {
     std::copy_n(from, count, to.data());
     from += count;
   });
+  for (const auto part : Eroded::parts)
+    if (b.erodes()) b.eroded.*part = *from++;
   return true;
 }
 
 const std::vector<std::array<std::int32_t, 2>>& MeshStep::surface(int s) const {
-  return bodies_[static_cast<std::size_t>(s)]->surface;
+  const Elements& b = *bodies_[static_cast<std::size_t>(s)];
+  if (b.surface.empty()) b.surface = surface_edges(faces_of(b));
+  return b.surface;
 }
 
 void MeshStep::pad(int s) {

@@ -30,6 +30,37 @@ void read_hourglass(Block& mesh, HourglassOptions& out, Reading& reading) {
   mesh.record("hourglass", block.finish());
 }
 
+/// `failure: {action: erode, when: {...}}`.
+void read_erosion(Block& mesh, ErosionOptions& out, Reading& reading) {
+  const Node* node = mesh.find("failure");
+  if (node == nullptr) return;
+  Block block{node, node->path, *node, reading.problems};
+  block.choice<int>("action", {{"erode", 0}}, 0);
+  if (const Node* inner = block.require("when", "for instance when: {plastic_strain: 1.0}")) {
+    Block when{inner, inner->path, *inner, reading.problems};
+    const auto limit = [&](const char* name, const char* unit, const char* meaning, double& to) {
+      if (const auto value = when.optional_number({name, unit, Range::positive, 0, meaning}))
+        to = *value;
+    };
+    out.failed = when.flag("failed", false);
+    limit("plastic_strain", "1", "at which an element is taken out", out.plastic_strain);
+    limit("step", "s", "stable step below which an element is taken out", out.step);
+    limit("jacobian", "1", "least of the corners by their mean", out.jacobian);
+    limit("least_volume", "1", "ratio to the start below which it is taken out",
+          out.volume_ratio[0]);
+    limit("greatest_volume", "1", "ratio to the start above which it is taken out",
+          out.volume_ratio[1]);
+    if (!(out.volume_ratio[0] < 1) || !(out.volume_ratio[1] > 1))
+      block.fail(*inner, "least_volume must lie below 1 and greatest_volume above");
+    if (!out.any())
+      block.fail(*inner,
+                 "names nothing: failed, plastic_strain, least_volume, greatest_volume, "
+                 "jacobian or step");
+    block.record("when", when.finish());
+  }
+  mesh.record("failure", block.finish());
+}
+
 }  // namespace
 
 Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
@@ -39,7 +70,7 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
       report_unknown(node, "kinematics", node.text, {"mpm", "lagrangian_mesh"}, reading.problems);
       return node;
     }
-    body.mesh = MeshOptions{.element = reading.scene.grid.cell, .hourglass = {}};
+    body.mesh = MeshOptions{.element = reading.scene.grid.cell, .hourglass = {}, .erosion = {}};
     return string_node("lagrangian_mesh");
   }
   Block block{&node, node.path, node, reading.problems};
@@ -49,6 +80,7 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     body.mesh->element = mesh.number(
         {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
     read_hourglass(mesh, body.mesh->hourglass, reading);
+    read_erosion(mesh, body.mesh->erosion, reading);
     block.record("lagrangian_mesh", mesh.finish());
   }
   return block.finish();
@@ -74,9 +106,7 @@ void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
     fail(*points, only + "has elements, no points: leave this key out");
   if (body.material >= 0 &&
       scene.materials[static_cast<std::size_t>(body.material)].failure == FailureAction::remove)
-    fail(node, only +
-                   "keeps its failed elements: use failure: {action: strength_loss} in its "
-                   "material, or kinematics: mpm");
+    body.mesh->erosion.failed = true;
   if (body.rigid()) fail(*node.find("rigid"), only + "cannot be rigid: leave one of the two out");
   const Box box = intersection(body.solid->extent(scene.frame), {scene.grid.min, scene.grid.max},
                                dimension(scene.frame));

@@ -39,12 +39,16 @@ struct NodeCorners {
 };
 NodeCorners node_corners(const Mesh& mesh);
 
+/// Corners of the faces of an element, in order around each, with the outside at their right.
+const std::vector<std::vector<std::size_t>>& element_faces(int dimension);
+
 /// Corners of the faces that no two elements share, right-handed about the normal outwards; in two
 /// dimensions edges with the outside at their right, and -1 for the last two corners.
 std::vector<std::array<std::int32_t, 4>> exposed_faces(const Mesh& mesh);
 
-/// Edges of the exposed faces, each once.
-std::vector<std::array<std::int32_t, 2>> surface_edges(const Mesh& mesh);
+/// Edges of faces, each once.
+std::vector<std::array<std::int32_t, 2>> surface_edges(
+    const std::vector<std::array<std::int32_t, 4>>& faces);
 
 /// int N_I dV of every corner of every element, V over w = 1 or 2 pi r, by Gauss points: exact for
 /// quadrilaterals and for hexahedra with plane or bilinear faces. They sum to the volume and keep

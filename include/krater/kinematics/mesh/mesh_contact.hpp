@@ -121,6 +121,7 @@ class MeshContact final : public Encounter {
     Triple by_contact;  ///< dv
   };
 
+  void find_faces();
   void find_carriers();
   void sample(const MeshNodes& nodes, std::size_t body, const Face& face);
   void share_masses();
@@ -161,6 +162,7 @@ class MeshContact final : public Encounter {
   ContactOptions options_;
   Parts parts_;
   std::vector<std::vector<Face>> faces_;  ///< by which bodies of elements meet others
+  std::size_t shape_ = 0;                 ///< of the meshes, when they were found
   // Of the step:
   std::vector<MeshNodes> bodies_;
   std::vector<int> of_points_;  ///< bodies of points near one of elements

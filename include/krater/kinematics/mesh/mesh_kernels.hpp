@@ -6,7 +6,7 @@
 /// group has beside its columns lies in arrays of `groups` records:
 ///   corners [corner][8 lanes]          shares, the mass of each corner [corner][8]
 ///   forces  [corner][axis][8]          Q of the hourglass [component][8]
-///   energy of the hourglass [8]        G and tr D of the last step [2][8]
+///   energy of the hourglass [8]        G, tr D of the last step, 1/dt of the next [3][8]
 /// Nodes: x, m, v, heat per mass of the step (8 doubles), and the change of velocity of the step.
 #include <cstdint>
 
@@ -48,6 +48,7 @@ struct ElementScratch {
 };
 inline constexpr int kElementGroups = 8;  ///< groups that a stage works on at once
 inline constexpr int kKeptPacks = 20;
+inline constexpr int kRemembered = 3;
 
 /// What a sweep over some groups leaves behind; combined in their order.
 struct ElementResult {

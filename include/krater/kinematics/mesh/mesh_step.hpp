@@ -19,6 +19,7 @@
 #include "krater/geometry/frame.hpp"
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/kinematics.hpp"
+#include "krater/kinematics/mesh/erosion.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
 #include "krater/kinematics/mesh/mesh_health.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
@@ -37,6 +38,7 @@ struct ElementBody {
   double q_lin = 0, q_quad = 0;
   bool barotropic = false;  ///< its pressure does not know its energy
   HourglassOptions held;
+  ErosionOptions erosion;
 };
 
 /// The columns that elements need beside those of their material: before and after its stages are
@@ -92,19 +94,24 @@ class MeshStep final : public Kinematics {
 
   const std::vector<std::array<std::int32_t, 2>>& surface(int s) const;  ///< edges, by nodes
   std::vector<MeshNodes> nodes();  ///< of all bodies, in the order of the sets
-  /// Faces that others may touch (exposed_faces()): not those that lie on a plane of symmetry.
+  /// Faces that others may touch (exposed_faces()): not those that lie on a plane of symmetry. A
+  /// node without elements is one of one corner.
   std::vector<std::array<std::int32_t, 4>> meeting_faces(int s) const;
+  std::size_t shape_changes() const { return shape_changes_; }  ///< how often elements were eroded
+  Eroded eroded() const;                                        ///< since the start, by cause
   NodeTotals totals(int s) const;
   double internal_energy(int s) const;  ///< hourglass energy included [J]
   /// Nodes, and what elements hold beside their columns; find_forces() after it was put back.
   std::vector<double> state(int s) const;
   bool set_state(int s, const std::vector<double>& state);  ///< false: of another length
+  /// Before columns are put back: a body that has eroded has fewer. False: it has not as many.
+  bool set_count(int s, std::size_t elements);
   void pad(int s);                  ///< after columns were changed from outside
   std::size_t memory() const;       ///< of nodes and elements [bytes]
   double hourglass_energy() const;  ///< part of the internal energy [J]
   MeshHealth health() const;
   struct Elements;                ///< of one body
-  const Mesh& mesh(int s) const;  ///< as it was at the start; its nodes move
+  const Mesh& mesh(int s) const;  ///< nodes as they were at the start; elements in their order
   std::size_t node_count(int s) const;
   Triple position(int s, std::size_t node) const;
   Triple velocity(int s, std::size_t node) const;
@@ -133,6 +140,11 @@ class MeshStep final : public Kinematics {
   void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
+  void make_chunks();
+  void erode();
+  std::vector<int> find_eroded(Elements& body) const;
+  void take_out(Elements& body, const std::vector<int>& elements);
+  void lose_heat(const Elements& body);
   template <class Work>
   void over_nodes(const Work& work);
   void find_limit(const std::vector<ElementResult>& results);
@@ -145,6 +157,7 @@ class MeshStep final : public Kinematics {
   Audit& audit_;
   std::vector<std::unique_ptr<Elements>> bodies_;
   std::vector<Chunk> chunks_;
+  std::size_t shape_changes_ = 0;
   std::vector<AlignedBuffer> scratch_;
   TimeStepLimit limit_;
 };

@@ -159,14 +159,17 @@ void find_forces(const ElementData& d, int first, int last, ElementResult& out) 
       for (int i = 0; i < D; ++i) store(d.forces + ((N * g + I) * D + i) * kLanes, f[I][i]);
     Pack share[N];
     load_shares<D>(d, g, share);
-    const Pack length = stable_length(e, share, rho), G = load(d.remembered + 2 * kLanes * g),
-               tr_D = load(d.remembered + (2 * g + 1) * kLanes);
+    double* remembered = d.remembered + kRemembered * kLanes * g;
+    const Pack length = stable_length(e, share, rho), G = load(remembered),
+               tr_D = load(remembered + kLanes);
     const Pack closing = max(Pack(0.0), -tr_D), viscous = viscous_length<Frame>(e, at.x, length);
     const Pack Qv =
         select(closing > Pack(0.0),
                viscous / length * fma((2.0 * d.q_quad) * viscous, closing, d.q_lin * c), Pack(0.0));
     const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
-    note_rate(d, (Qv + sqrt(fma(Qv, Qv, c_L_squared))) / length, 0, g, out);
+    const Pack rate = (Qv + sqrt(fma(Qv, Qv, c_L_squared))) / length;
+    store(remembered + 2 * kLanes, rate);
+    note_rate(d, rate, 0, g, out);
     note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
   }
 }
@@ -317,8 +320,8 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
     for (int g = from; g < to; ++g) {
       const double* record = w.local + (g - from) * c.local_stride;
       const Pack G = c.local_shear < 0 ? Pack(0.0) : load(record + c.local_shear);
-      store(d.remembered + 2 * kLanes * g, G);
-      store(d.remembered + (2 * g + 1) * kLanes, load(record + c.local_rate));
+      store(d.remembered + kRemembered * kLanes * g, G);
+      store(d.remembered + (kRemembered * g + 1) * kLanes, load(record + c.local_rate));
       if constexpr (Kind == Holding::assumed_strain)
         stress_hourglass<D>(d, w.kept + (g - from) * kKeptPacks * kLanes, view, G, g);
       const Mask valid = first_lanes(d.count - kLanes * g);

@@ -2,6 +2,8 @@
 #pragma once
 /// \file kinematics/mesh/options.hpp
 /// What a scene says of a body of elements.
+#include <array>
+#include <limits>
 
 namespace krater {
 
@@ -11,9 +13,24 @@ struct HourglassOptions {
   double viscous = 0.1;  ///< c_h
 };
 
+/// When an element is taken out (kinematics/mesh/erosion.hpp): any of these.
+struct ErosionOptions {
+  bool failed = false;  ///< by the damage or spall of its material
+  double plastic_strain = std::numeric_limits<double>::infinity();
+  std::array<double, 2> volume_ratio{0, std::numeric_limits<double>::infinity()};  ///< rho_0/rho
+  double jacobian = -std::numeric_limits<double>::infinity();  ///< least of its corners by the mean
+  double step = 0;                                             ///< it allows at CFL 1 [s]
+  bool any() const {
+    return failed || plastic_strain < std::numeric_limits<double>::infinity() ||
+           volume_ratio[0] > 0 || volume_ratio[1] < std::numeric_limits<double>::infinity() ||
+           jacobian > -std::numeric_limits<double>::infinity() || step > 0;
+  }
+};
+
 struct MeshOptions {
   double element = 0;  ///< edge [m]; a whole number of them fits along each axis of the body
   HourglassOptions hourglass;
+  ErosionOptions erosion;
 };
 
 }  // namespace krater
