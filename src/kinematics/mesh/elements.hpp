@@ -65,6 +65,8 @@ struct MeshStep::Elements {
   }
 };
 
+/// Least j of each element of a lane group (mesh_health.hpp).
+std::array<double, kLanes> least_corners(const MeshStep::Elements& body, std::size_t group);
 /// The exposed faces of what there is now.
 std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& body);
 /// Which elements there are, and where, from their numbers, which were put back.

@@ -13,7 +13,7 @@ namespace krater {
 
 namespace {
 
-constexpr int kChunkElements = 2048;
+constexpr std::size_t kChunkGroups = 256;
 
 /// Lane `i` of the records of `rows` rows each.
 template <class T>
@@ -44,20 +44,14 @@ void pad_lanes(MeshStep::Elements& b) {
   if (count > 0) b.elements.pad(b.columns.mass);
 }
 
-double least_corner_of(const MeshStep::Elements& b, int i) {
-  std::array<Triple, 8> x{};
-  const std::size_t N = b.corner_count();
-  for (std::size_t I = 0; I < N; ++I) {
-    const auto n =
-        static_cast<std::size_t>(b.made_of.mesh.elements[static_cast<std::size_t>(i) * N + I]);
-    const double* node = b.nodes.data() + kNode * n;
-    x[I] = {node[0], node[1], node[2]};
-  }
-  return least_corner(b.made_of.mesh.dimension, {x.data(), N});
-}
+/// Element i and why it is taken out.
+struct Gone {
+  int i;
+  double Eroded::*cause;
+};
 
 /// Why an element is taken out; null: it is not.
-double Eroded::*cause_of(const MeshStep::Elements& b, int i) {
+double Eroded::*cause_of(const MeshStep::Elements& b, int i, double least_corner) {
   const ErosionOptions& when = b.made_of.erosion;
   const ElementColumns& c = b.columns;
   if (when.failed && c.failed >= 0 && b.elements.at(c.failed, i) > 0.5) return &Eroded::failed;
@@ -68,8 +62,30 @@ double Eroded::*cause_of(const MeshStep::Elements& b, int i) {
   const double* remembered =
       b.remembered.data() + static_cast<std::size_t>(i / kLanes * kRemembered + 2) * kLanes;
   if (remembered[i % kLanes] * when.step > 1) return &Eroded::step;
-  if (when.jacobian > -1e300 && least_corner_of(b, i) <= when.jacobian) return &Eroded::jacobian;
+  if (least_corner <= when.jacobian) return &Eroded::jacobian;
   return nullptr;
+}
+
+/// In the order of their places.
+std::vector<Gone> find_eroded(const MeshStep::Elements& b) {
+  const auto groups = static_cast<std::size_t>(b.elements.groups()),
+             chunks = (groups + kChunkGroups - 1) / kChunkGroups;
+  const bool corners = b.made_of.erosion.jacobian > -1e300;
+  std::vector<std::vector<Gone>> found(chunks);
+  for_each(chunks, [&](std::size_t c) {
+    std::array<double, kLanes> least;
+    least.fill(1);
+    for (std::size_t g = c * kChunkGroups; g < std::min((c + 1) * kChunkGroups, groups); ++g) {
+      if (corners) least = least_corners(b, g);
+      const int first = static_cast<int>(g) * kLanes;
+      for (int i = first; i < std::min(first + kLanes, b.elements.count()); ++i)
+        if (const auto cause = cause_of(b, i, least[static_cast<std::size_t>(i - first)]))
+          found[c].push_back({i, cause});
+    }
+  });
+  std::vector<Gone> out;
+  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+  return out;
 }
 
 /// What nodes have, when elements have changed; in an order that does not depend on which went
@@ -84,6 +100,34 @@ void find_nodes_again(MeshStep::Elements& b) {
   pad_lanes(b);
   b.corners_of = node_corners(b.made_of.mesh);
   b.surface.clear();
+}
+
+/// From the last on, so that those to come keep their places.
+void take_out(MeshStep::Elements& b, const std::vector<Gone>& gone, Audit& audit) {
+  const std::size_t corners = b.corner_count();
+  std::vector<std::int32_t>& mesh = b.made_of.mesh.elements;
+  for (auto at = gone.rbegin(); at != gone.rend(); ++at) {
+    const int i = at->i, last = b.elements.count() - 1;
+    b.eroded.*at->cause += 1;
+    const auto id = static_cast<std::size_t>(b.elements.at(b.columns.id, i));
+    b.first.alive[id] = false;
+    Removed energy;
+    energy.internal = b.elements.at(b.columns.mass, i) * b.elements.at(b.columns.energy, i) +
+                      b.hourglass_energy.data()[i];
+    energy.count = energy.failed = 1;
+    audit.book_removed(energy);
+    if (b.made_of.barotropic) {
+      audit.unfelt -= energy.internal;
+      audit.unfelt_removed += energy.internal;
+    }
+    b.elements.copy(last, i);
+    copy_element(b, last, i);
+    b.elements.truncate(last);
+    std::copy_n(mesh.begin() + static_cast<std::ptrdiff_t>(corners) * last, corners,
+                mesh.begin() + static_cast<std::ptrdiff_t>(corners) * i);
+    mesh.resize(mesh.size() - corners);
+  }
+  find_nodes_again(b);
 }
 
 }  // namespace
@@ -134,56 +178,14 @@ void MeshStep::erode() {
   for (auto& body : bodies_) {
     if (!body->erodes()) continue;
     lose_heat(*body);
-    const std::vector<int> gone = find_eroded(*body);
+    const std::vector<Gone> gone = find_eroded(*body);
     if (gone.empty()) continue;
-    take_out(*body, gone);
+    take_out(*body, gone, audit_);
     any = true;
   }
   if (!any) return;
   ++shape_changes_;
   make_chunks();
-}
-
-/// In the order of their places.
-std::vector<int> MeshStep::find_eroded(Elements& b) const {
-  const int count = b.elements.count(), chunks = (count + kChunkElements - 1) / kChunkElements;
-  std::vector<std::vector<int>> found(static_cast<std::size_t>(chunks));
-  for_each(found.size(), [&](std::size_t c) {
-    const int first = static_cast<int>(c) * kChunkElements;
-    for (int i = first; i < std::min(first + kChunkElements, count); ++i)
-      if (cause_of(b, i) != nullptr) found[c].push_back(i);
-  });
-  std::vector<int> out;
-  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
-  return out;
-}
-
-/// From the last on, so that those to come keep their places.
-void MeshStep::take_out(Elements& b, const std::vector<int>& gone) {
-  const std::size_t corners = b.corner_count();
-  std::vector<std::int32_t>& mesh = b.made_of.mesh.elements;
-  for (auto at = gone.rbegin(); at != gone.rend(); ++at) {
-    const int i = *at, last = b.elements.count() - 1;
-    b.eroded.*cause_of(b, i) += 1;
-    const auto id = static_cast<std::size_t>(b.elements.at(b.columns.id, i));
-    b.first.alive[id] = false;
-    Removed energy;
-    energy.internal = b.elements.at(b.columns.mass, i) * b.elements.at(b.columns.energy, i) +
-                      b.hourglass_energy.data()[i];
-    energy.count = energy.failed = 1;
-    audit_.book_removed(energy);
-    if (b.made_of.barotropic) {
-      audit_.unfelt -= energy.internal;
-      audit_.unfelt_removed += energy.internal;
-    }
-    b.elements.copy(last, i);
-    copy_element(b, last, i);
-    b.elements.truncate(last);
-    std::copy_n(mesh.begin() + static_cast<std::ptrdiff_t>(corners) * last, corners,
-                mesh.begin() + static_cast<std::ptrdiff_t>(corners) * i);
-    mesh.resize(mesh.size() - corners);
-  }
-  find_nodes_again(b);
 }
 
 /// Heat of nodes that eroded elements would have had.

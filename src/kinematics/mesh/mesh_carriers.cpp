@@ -10,7 +10,8 @@ namespace krater {
 
 namespace {
 
-constexpr double kReach = 3;  // cells: bodies further apart cannot meet in a step
+constexpr std::size_t kRoom = 512;  // nodes of the box per carrier, and no more
+constexpr double kReach = 3;        // cells: bodies further apart cannot meet in a step
 
 Triple cross(const Triple& a, const Triple& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -174,9 +175,34 @@ MeshContact::Reached MeshContact::inside(Index& index) const {
   return out;
 }
 
-/// The nodes of the grid that carriers reach, in order of their places.
+namespace {
+
+/// Numbers of nodes in a box, in order of their places.
+struct NodeBox {
+  std::array<int, 3> low{1 << 30, 1 << 30, 1 << 30}, high{-(1 << 30), -(1 << 30), -(1 << 30)};
+  std::vector<std::int32_t> number;
+
+  void hold(const std::array<int, 3>& index) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], index[a]);
+      high[a] = std::max(high[a], index[a]);
+    }
+  }
+  std::size_t length(std::size_t a) const { return static_cast<std::size_t>(high[a] - low[a] + 1); }
+  std::size_t size() const { return length(0) * length(1) * length(2); }
+  std::int32_t& at(const std::array<int, 3>& index) {
+    std::size_t n = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      n = n * length(a) + static_cast<std::size_t>(index[a] - low[a]);
+    return number[n];
+  }
+};
+
+}  // namespace
+
+/// The nodes of the grid that carriers reach, in order of their places. Where bodies are close the
+/// box around them is a few cells thick, and mostly full; if not, they are sorted.
 void MeshContact::number_nodes() {
-  places_.clear();
   const auto visit_nodes = [&](Carrier& q, const auto& visit) {
     std::size_t n = 0;
     for (int i = 0; i < static_cast<int>(kSupport); ++i)
@@ -187,15 +213,34 @@ void MeshContact::number_nodes() {
           visit(q.at[n++], index);
         }
   };
+  NodeBox box;
   for (Carrier& q : carriers_)
-    visit_nodes(q, [&](Reached&, const Index& index) { places_.push_back(index); });
-  std::sort(places_.begin(), places_.end());
-  places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    visit_nodes(q, [&](Reached&, const Index& index) { box.hold(index); });
+  places_.clear();
+  if (box.size() > kRoom * carriers_.size()) {
+    for (Carrier& q : carriers_)
+      visit_nodes(q, [&](Reached&, const Index& index) { places_.push_back(index); });
+    std::sort(places_.begin(), places_.end());
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+    for (Carrier& q : carriers_)
+      visit_nodes(q, [&](Reached& at, const Index& index) {
+        at.node = static_cast<std::int32_t>(
+            std::lower_bound(places_.begin(), places_.end(), index) - places_.begin());
+      });
+    return;
+  }
+  box.number.assign(box.size(), -1);
   for (Carrier& q : carriers_)
-    visit_nodes(q, [&](Reached& at, const Index& index) {
-      at.node = static_cast<std::int32_t>(std::lower_bound(places_.begin(), places_.end(), index) -
-                                          places_.begin());
-    });
+    visit_nodes(q, [&](Reached&, const Index& index) { box.at(index) = 0; });
+  for (int i = box.low[0]; i <= box.high[0]; ++i)
+    for (int j = box.low[1]; j <= box.high[1]; ++j)
+      for (int k = box.low[2]; k <= box.high[2]; ++k)
+        if (std::int32_t& number = box.at({i, j, k}); number == 0) {
+          number = static_cast<std::int32_t>(places_.size());
+          places_.push_back({i, j, k});
+        }
+  for (Carrier& q : carriers_)
+    visit_nodes(q, [&](Reached& at, const Index& index) { at.node = box.at(index); });
 }
 
 }  // namespace krater

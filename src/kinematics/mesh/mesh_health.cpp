@@ -31,16 +31,30 @@ constexpr std::size_t neighbour(int dim, int I, int k) {
   return 0;
 }
 
+/// Edges at a corner: to whom, and with which sign.
+struct CornerEdge {
+  std::size_t to;
+  double sign;
+};
+template <int Dim>
+constexpr auto corner_edges() {
+  std::array<std::array<CornerEdge, 3>, 8> out{};
+  for (int I = 0; I < corner_nodes(Dim); ++I)
+    for (int k = 0; k < Dim; ++k)
+      out[static_cast<std::size_t>(I)][static_cast<std::size_t>(k)] = {neighbour(Dim, I, k),
+                                                                       -corner_sign(Dim, I, k)};
+  return out;
+}
+
 /// det of the edges at corner I, by lanes: this is a plain loop for the compiler to vectorise.
 template <int Dim>
-Lanes corner_jacobians(const GroupCorners& x, int I) {
+Lanes corner_jacobians(const GroupCorners& x, std::size_t I) {
+  static constexpr auto kEdges = corner_edges<Dim>();
   std::array<std::array<Lanes, 3>, 3> e;
-  for (int k = 0; k < Dim; ++k)
+  for (std::size_t k = 0; k < Dim; ++k)
     for (std::size_t a = 0; a < Dim; ++a)
       for (std::size_t l = 0; l < kLanes; ++l)
-        e[static_cast<std::size_t>(k)][a][l] =
-            -corner_sign(Dim, I, k) *
-            (x[neighbour(Dim, I, k)][a][l] - x[static_cast<std::size_t>(I)][a][l]);
+        e[k][a][l] = kEdges[I][k].sign * (x[kEdges[I][k].to][a][l] - x[I][a][l]);
   Lanes j;
   for (std::size_t l = 0; l < kLanes; ++l) {
     const auto minor = [&e, l](std::size_t a, std::size_t b) {
@@ -59,7 +73,7 @@ Lanes least_corners(const GroupCorners& x) {
   constexpr int N = corner_nodes(Dim);
   Lanes least, sum{};
   least.fill(std::numeric_limits<double>::infinity());
-  for (int I = 0; I < N; ++I) {
+  for (std::size_t I = 0; I < N; ++I) {
     const Lanes j = corner_jacobians<Dim>(x, I);
     for (std::size_t l = 0; l < kLanes; ++l) {
       least[l] = std::min(least[l], j[l]);
@@ -102,15 +116,9 @@ void add_element(const MeshStep::Elements& b, std::size_t e, double j, MeshHealt
 
 MeshHealth health_of(const MeshStep::Elements& b, std::size_t first_group, std::size_t last_group) {
   MeshHealth sum;
-  GroupCorners x;
-  const std::size_t N = b.corner_count(), count = b.made_of.mesh.element_count();
+  const std::size_t count = b.made_of.mesh.element_count();
   for (std::size_t g = first_group; g < last_group; ++g) {
-    for (std::size_t I = 0; I < N; ++I)
-      for (std::size_t l = 0; l < kLanes; ++l) {
-        const auto n = static_cast<std::size_t>(b.corners[(g * N + I) * kLanes + l]);
-        for (std::size_t a = 0; a < 3; ++a) x[I][a][l] = b.nodes.data()[kNode * n + a];
-      }
-    const Lanes j = least_corners(b.made_of.mesh.dimension, x);
+    const Lanes j = least_corners(b, g);
     for (std::size_t l = 0; l < kLanes && g * kLanes + l < count; ++l)
       add_element(b, g * kLanes + l, j[l], sum);
   }
@@ -136,6 +144,17 @@ double least_corner(int dimension, std::span<const Triple> corners) {
   for (std::size_t I = 0; I < corners.size(); ++I)
     for (std::size_t a = 0; a < 3; ++a) x[I][a].fill(corners[I][a]);
   return least_corners(dimension, x)[0];
+}
+
+std::array<double, kLanes> least_corners(const MeshStep::Elements& b, std::size_t group) {
+  GroupCorners x;
+  const std::size_t N = b.corner_count();
+  for (std::size_t I = 0; I < N; ++I)
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      const auto n = static_cast<std::size_t>(b.corners[(group * N + I) * kLanes + l]);
+      for (std::size_t a = 0; a < 3; ++a) x[I][a][l] = b.nodes.data()[kNode * n + a];
+    }
+  return least_corners(b.made_of.mesh.dimension, x);
 }
 
 MeshHealth MeshStep::health() const {

@@ -142,8 +142,6 @@ class MeshStep final : public Kinematics {
   void note_planes(Elements& body) const;
   void make_chunks();
   void erode();
-  std::vector<int> find_eroded(Elements& body) const;
-  void take_out(Elements& body, const std::vector<int>& elements);
   void lose_heat(const Elements& body);
   template <class Work>
   void over_nodes(const Work& work);
