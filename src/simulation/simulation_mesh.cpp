@@ -67,6 +67,7 @@ void Simulation::place_meshes() {
                      .q_quad = plan.q_quad,
                      .barotropic = kernel_data_[b].heat_floor == nullptr,
                      .held = body.options().mesh->hourglass,
+                     .reference = body.options().mesh->reference,
                      .erosion = body.options().mesh->erosion};
     made.velocities = velocities_of(body.options(), made.mesh);
     mesh_->add(std::move(made));

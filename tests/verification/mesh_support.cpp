@@ -22,7 +22,7 @@ MeshFrame frame_of(Frame frame) {
 }  // namespace
 
 MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& overrides,
-                 const HourglassOptions& held, double cfl)
+                 const HourglassOptions& held, double cfl, ElementReference reference)
     : scene_{read_text(yaml, overrides)},
       layout_{mesh.dimension},
       clock_{{cfl, scene_->time.first_step, 0, scene_->time.max_step}} {
@@ -50,6 +50,7 @@ MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& ove
                    .q_lin = plan.q_lin,
                    .q_quad = plan.q_quad,
                    .held = held,
+                   .reference = reference,
                    .erosion = {}};
   for (const Triple& x : mesh.nodes)
     made.velocities.push_back(body.velocity ? (*body.velocity)(x, x, 0) : Triple{});

@@ -18,7 +18,8 @@ namespace krater::test {
 class MeshRun {
  public:
   MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& overrides = {},
-          const HourglassOptions& held = {}, double cfl = 0.9);
+          const HourglassOptions& held = {}, double cfl = 0.9,
+          ElementReference reference = ElementReference::current);
 
   void step(double until);
   void run_to(double time);

@@ -20,7 +20,7 @@ struct MeshStep::Elements {
   PointStore elements;
   NodeCorners corners_of;
   std::vector<std::int32_t> corners;
-  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes;
+  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes, start;
   std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
   std::size_t node_count = 0;
   mutable std::vector<std::array<std::int32_t, 2>> surface;  ///< found when it is asked for

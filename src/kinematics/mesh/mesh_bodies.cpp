@@ -98,8 +98,12 @@ void place_nodes(const std::vector<double>& volumes, MeshStep::Elements& body) {
   body.node_count = made_of.mesh.nodes.size();
   body.nodes.reserve(kNode * body.node_count);
   body.changes.reserve(kChange * body.node_count + kNode);  // read eight at a time
+  const bool keeps_start = made_of.reference == ElementReference::initial;
+  if (keeps_start) body.start.reserve(kChange * body.node_count + kNode);
   for (std::size_t n = 0; n < body.node_count; ++n) {
     double* node = body.node(n);
+    for (std::size_t a = 0; a < 3 && keeps_start; ++a)
+      body.start.data()[kChange * n + a] = made_of.mesh.nodes[n][a];
     for (std::size_t a = 0; a < static_cast<std::size_t>(made_of.mesh.dimension); ++a) {
       node[a] = made_of.mesh.nodes[n][a];
       node[4 + a] = made_of.velocities.empty() ? 0 : made_of.velocities[n][a];

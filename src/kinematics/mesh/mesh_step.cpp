@@ -27,12 +27,14 @@ ElementData MeshStep::data(Elements& b) {
           .remembered = b.remembered.data(),
           .nodes = b.nodes.data(),
           .changes = b.changes.data(),
+          .start = b.start.data(),
           .columns = b.columns,
           .stages = b.made_of.stages,
           .stage_count = b.made_of.stage_count,
           .q_lin = b.made_of.q_lin,
           .q_quad = b.made_of.q_quad,
-          .held = b.made_of.held};
+          .held = b.made_of.held,
+          .reference = b.made_of.reference};
 }
 
 ElementScratch MeshStep::scratch() {

@@ -70,7 +70,8 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
       report_unknown(node, "kinematics", node.text, {"mpm", "lagrangian_mesh"}, reading.problems);
       return node;
     }
-    body.mesh = MeshOptions{.element = reading.scene.grid.cell, .hourglass = {}, .erosion = {}};
+    body.mesh = MeshOptions{
+        .element = reading.scene.grid.cell, .hourglass = {}, .reference = {}, .erosion = {}};
     return string_node("lagrangian_mesh");
   }
   Block block{&node, node.path, node, reading.problems};
@@ -80,6 +81,10 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     body.mesh->element = mesh.number(
         {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
     read_hourglass(mesh, body.mesh->hourglass, reading);
+    body.mesh->reference = mesh.choice<ElementReference>(
+        "reference",
+        {{"current", ElementReference::current}, {"initial", ElementReference::initial}},
+        ElementReference::current);
     read_erosion(mesh, body.mesh->erosion, reading);
     block.record("lagrangian_mesh", mesh.finish());
   }
@@ -146,7 +151,9 @@ void check_alone(const Node& place, Reading& reading) {
                   [](const BodyOptions& body) { return !body.mesh; }))
     check_among_points(fail, scene);
   if (scene.method.reference != Reference::current)
-    fail("knows the current configuration only: leave out method.reference");
+    fail(
+        "has a reference of its own: leave out method.reference, and give kinematics: "
+        "{lagrangian_mesh: {reference: initial}}");
   if (scene.body_force || scene.loads.any())
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
   if (scene.method.energy_alpha != 0.5)

@@ -31,13 +31,15 @@ struct ElementData {
   const std::int32_t* corners;
   const double* shares;
   double *forces, *hourglass, *hourglass_energy, *remembered;
-  double* nodes;    ///< 8 each
-  double* changes;  ///< 4 each
+  double* nodes;        ///< 8 each
+  double* changes;      ///< 4 each
+  const double* start;  ///< where nodes were, 4 each
   ElementColumns columns;
   const Stage* const* stages;
   int stage_count;
   double q_lin, q_quad;
   HourglassOptions held;
+  ElementReference reference;
 };
 
 struct ElementScratch {

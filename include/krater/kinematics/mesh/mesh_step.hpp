@@ -38,6 +38,7 @@ struct ElementBody {
   double q_lin = 0, q_quad = 0;
   bool barotropic = false;  ///< its pressure does not know its energy
   HourglassOptions held;
+  ElementReference reference = ElementReference::current;
   ErosionOptions erosion;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file kinematics/mesh/mesh_sweeps.hpp
-/// One step of the elements of a body, on the current configuration. With v+ = v- + dv and
+/// One step of the elements of a body, on the geometry of placed_element.hpp. With v+ = v- + dv and
 /// vm = v- + dv/2 of the nodes, at x_n:
 ///   W = dt V sigma : L(vm) = - dt sum f_I . vm_I         work of the very forces, to round-off
 ///   e <- e + W/m + sum_I m_eI k_I/m                      k: heat of walls at the nodes
@@ -13,8 +13,8 @@
 
 #include "krater/core/lane_math.hpp"
 #include "krater/core/stability.hpp"
-#include "krater/kinematics/mesh/hourglass.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
+#include "krater/kinematics/mesh/placed_element.hpp"
 #include "krater/materials/batch_access.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -42,6 +42,27 @@ KRATER_FORCE_INLINE void load_corners(const ElementData& d, int g, bool change, 
     for (int l = 0; l < kLanes; ++l) r[l] = loadu(d.changes + 4 * lanes[l]);
     transpose8(r);
     for (int a = 0; a < Dim; ++a) out.dv[I][a] = r[a];
+  }
+}
+
+/// The geometry of the corners x, and what it was carried from.
+template <class Frame, ElementReference On>
+KRATER_FORCE_INLINE void place(const ElementData& d, int g,
+                               const Pack (&x)[corner_nodes(Frame::dim)][Frame::dim],
+                               ReferenceElement<Frame>& r, ElementGeometry<Pack, Frame>& e) {
+  if constexpr (On == ElementReference::current) {
+    find_geometry(x, e);
+  } else {
+    constexpr int N = corner_nodes(Frame::dim);
+    for (int I = 0; I < N; ++I) {
+      const std::int32_t* lanes = d.corners + (N * g + I) * kLanes;
+      Pack at[8];
+      for (int l = 0; l < kLanes; ++l) at[l] = loadu(d.start + 4 * lanes[l]);
+      transpose8(at);
+      for (int a = 0; a < Frame::dim; ++a) r.X[I][a] = at[a];
+    }
+    find_geometry(r.X, r.start);
+    carry(x, r, e);
   }
 }
 
@@ -93,18 +114,28 @@ KRATER_FORCE_INLINE void add_viscous_hourglass(const HourglassFrame<Pack, Frame:
 using Holding = HourglassOptions::Kind;
 
 /// Forces that hold the hourglass modes, at the corners as they are.
-template <class Frame, Holding Kind>
+template <class Frame, Holding Kind, ElementReference On>
 KRATER_FORCE_INLINE void add_hourglass(const ElementData& d, const ElementGeometry<Pack, Frame>& e,
+                                       const ReferenceElement<Frame>& r,
                                        const Corners<Frame::dim>& at, Pack rho_c, int g,
                                        HourglassFrame<Pack, Frame::dim>& h,
                                        Pack (&f)[corner_nodes(Frame::dim)][Frame::dim]) {
   constexpr int D = Frame::dim, N = corner_nodes(D), size = hourglass_size(D);
-  find_hourglass(e, at.x, h);
   if constexpr (Kind == Holding::assumed_strain) {
     Pack Q[size];
     for (int k = 0; k < size; ++k) Q[k] = load(d.hourglass + (size * g + k) * kLanes);
-    add_hourglass_force<Pack, D>(h, Q, f);
+    if constexpr (On == ElementReference::current) {
+      find_hourglass(e, at.x, h);
+      add_hourglass_force<Pack, D>(h, Q, f);
+    } else {
+      find_hourglass(r.start, r.X, h);
+      add_pulled_force(h, r, at.x, Q, f);
+    }
   } else {
+    ElementGeometry<Pack, Frame> now = e;
+    if constexpr (On == ElementReference::initial)
+      find_geometry(at.x, now);  // dampers know no start
+    find_hourglass(now, at.x, h);
     const Pack measure = plane_measure(at.x, e.volume);
     const Pack face = D == 3 ? measure * rcbrt(measure) : e.volume / sqrt(measure);
     add_viscous_hourglass<Frame>(h, at, 0.25 * d.held.viscous * N * N * rho_c * face, f);
@@ -138,7 +169,7 @@ KRATER_FORCE_INLINE Pack viscous_length(const ElementGeometry<Pack, Frame>& e,
 /// The step of an element in its stiffest motion, of frequency 2 c_L/l, damped by xi = Q/c_L:
 ///   dt = l/(Q + sqrt(Q^2 + c_L^2)),   Q = L/l (q_lin c + 2 q_quad L |tr D|),
 /// L the length of the viscosity.
-template <class Frame, Holding Kind>
+template <class Frame, Holding Kind, ElementReference On>
 void find_forces(const ElementData& d, int first, int last, ElementResult& out) {
   constexpr int D = Frame::dim, N = corner_nodes(D);
   alignas(64) static constexpr double zeros[kLanes] = {};
@@ -147,14 +178,15 @@ void find_forces(const ElementData& d, int first, int last, ElementResult& out) 
     Corners<D> at;
     load_corners<D>(d, g, false, at);
     ElementGeometry<Pack, Frame> e;
-    find_geometry(at.x, e);
+    ReferenceElement<Frame> r;
+    place<Frame, On>(d, g, at.x, r, e);
     Pack f[N][D];
     for (auto& corner : f)
       for (Pack& component : corner) component = 0.0;
     add_stress_force(e, whole_stress(view, g), f);
     const Pack rho = view.density(g), c = view.sound_speed(g);
     HourglassFrame<Pack, D> h;
-    add_hourglass<Frame, Kind>(d, e, at, rho * c, g, h, f);
+    add_hourglass<Frame, Kind, On>(d, e, r, at, rho * c, g, h, f);
     for (int I = 0; I < N; ++I)
       for (int i = 0; i < D; ++i) store(d.forces + ((N * g + I) * D + i) * kLanes, f[I][i]);
     Pack share[N];
@@ -187,20 +219,27 @@ struct StepMap {
 };
 
 /// Where the corners go: exact volume, length, and the place and velocity of the whole.
-template <class Frame>
+template <class Frame, ElementReference On>
 KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& w,
                                     const ElementViews& view, const StepMap& map,
                                     const Pack (&share)[corner_nodes(Frame::dim)], int g, int local,
-                                    Corners<Frame::dim>& at) {
+                                    Corners<Frame::dim>& at, ReferenceElement<Frame>& r) {
   constexpr int D = Frame::dim, N = corner_nodes(D);
   for (int I = 0; I < N; ++I)
     for (int i = 0; i < D; ++i) at.x[I][i] = fma(Pack(map.dt), at.v[I][i], at.x[I][i]);
   ElementGeometry<Pack, Frame> after;
-  find_geometry(at.x, after);
-  const Pack det_f = det_minus_one(map.dtL) + 1.0, ratio = after.volume / (map.volume * det_f);
+  if constexpr (On == ElementReference::current)
+    find_geometry(at.x, after);
+  else
+    carry(at.x, r, after);
   double* record = w.local + local * d.columns.local_stride;
   store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, map.dtL);
-  store(record + d.columns.local_extra, 2.0 * (ratio - 1.0) / (ratio + 1.0));
+  Pack extra = 0.0;  // on the initial reference det f is the ratio
+  if constexpr (On == ElementReference::current) {
+    const Pack det_f = det_minus_one(map.dtL) + 1.0, ratio = after.volume / (map.volume * det_f);
+    extra = 2.0 * (ratio - 1.0) / (ratio + 1.0);
+  }
+  store(record + d.columns.local_extra, extra);
   Pack mass = 0.0;
   for (const Pack& m : share) mass = mass + m;
   store(w.length + local * kLanes,
@@ -217,7 +256,7 @@ KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& 
 }
 
 /// Before the stages: work into e, strain, density.
-template <class Frame, Holding Kind>
+template <class Frame, Holding Kind, ElementReference On>
 KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch& w,
                                       const ElementViews& view, double dt, int g, int local) {
   constexpr int D = Frame::dim, N = corner_nodes(D), size = hourglass_size(D);
@@ -226,14 +265,15 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
   Pack share[N];
   load_shares<D>(d, g, share);
   ElementGeometry<Pack, Frame> e;
-  find_geometry(at.x, e);
+  ReferenceElement<Frame> r;
+  place<Frame, On>(d, g, at.x, r, e);
   HourglassFrame<Pack, D> h;
   Pack f[N][D];
   for (auto& corner : f)
     for (Pack& component : corner) component = 0.0;
   const Pack c = view.sound_speed(g);
-  add_hourglass<Frame, Kind>(d, e, at, view.density(g) * c, g, h,
-                             f);  // of the v- that it was found with
+  add_hourglass<Frame, Kind, On>(d, e, r, at, view.density(g) * c, g, h,
+                                 f);  // of the v- that it was found with
   Pack heat = 0.0, held = 0.0, middle[N][D], mass = 0.0;
   for (int I = 0; I < N; ++I) {
     heat = fma(share[I], at.heat[I], heat);
@@ -253,15 +293,26 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
 
   const Mat3<Pack> dtL = mean_gradient(e, at.v, dt * per_volume);
   double* kept = w.kept + local * kKeptPacks * kLanes;
+  Pack modes[hourglass_modes(D)][D], before[size];
   if constexpr (Kind == Holding::assumed_strain) {
-    Pack q[size];
-    hourglass_rates<Pack, D>(h, at.v, q);
-    for (int k = 0; k < size; ++k) store(kept + (Kept::rates + k) * kLanes, dt * q[k]);
+    if constexpr (On == ElementReference::current) {
+      Pack q[size];
+      hourglass_rates<Pack, D>(h, at.v, q);
+      for (int k = 0; k < size; ++k) store(kept + (Kept::rates + k) * kLanes, dt * q[k]);
+    } else {
+      pulled_modes(h, r, at.x, modes, before);
+    }
     for (int k = 0; k < D; ++k) store(kept + (Kept::per_a + k) * kLanes, h.per_a[k]);
-    store(kept + Kept::volume * kLanes, e.volume);
+    store(kept + Kept::volume * kLanes,
+          On == ElementReference::current ? e.volume : r.start.volume);
     store(kept + Kept::plastic * kLanes, view.plastic(g));
   }
-  move_group<Frame>(d, w, view, {dtL, e.volume, dt}, share, g, local, at);
+  move_group<Frame, On>(d, w, view, {dtL, e.volume, dt}, share, g, local, at, r);
+  if constexpr (Kind == Holding::assumed_strain && On == ElementReference::initial) {
+    Pack after[size];
+    pulled_modes(h, r, at.x, modes, after);
+    for (int k = 0; k < size; ++k) store(kept + (Kept::rates + k) * kLanes, after[k] - before[k]);
+  }
 }
 
 /// After the stages: Q <- s (Q + dQ), s = q/(q + 3 G d eps) of the radial return; nothing of failed
@@ -289,7 +340,7 @@ KRATER_FORCE_INLINE void stress_hourglass(const ElementData& d, const double* ke
   for (int k = 0; k < size; ++k) store(record + k * kLanes, scale * Q[k]);
 }
 
-template <class Frame, Holding Kind>
+template <class Frame, Holding Kind, ElementReference On>
 void strain_elements(const ElementData& d, const ElementScratch& w, double dt, int first, int last,
                      ElementResult& out) {
   constexpr int D = Frame::dim;
@@ -300,7 +351,7 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
     for (int g = from; g < to; ++g) {
       out.hourglass_before += sum(select(first_lanes(d.count - kLanes * g),
                                          load(d.hourglass_energy + kLanes * g), Pack(0.0)));
-      strain_group<Frame, Kind>(d, w, view, dt, g, g - from);
+      strain_group<Frame, Kind, On>(d, w, view, dt, g, g - from);
     }
     const BatchData batch{.state = d.elements + from * c.stride,
                           .state_stride = c.stride,
@@ -331,21 +382,30 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
   }
 }
 
+/// work.operator()<Kind, On>() of a body.
+template <class Work>
+void choose(const ElementData& data, const Work& work) {
+  constexpr auto current = ElementReference::current, initial = ElementReference::initial;
+  if (data.held.kind == Holding::viscous)
+    return data.reference == current ? work.template operator()<Holding::viscous, current>()
+                                     : work.template operator()<Holding::viscous, initial>();
+  return data.reference == current ? work.template operator()<Holding::assumed_strain, current>()
+                                   : work.template operator()<Holding::assumed_strain, initial>();
+}
+
 template <class Frame>
 class FrameMeshKernels final : public MeshKernels {
  public:
   void forces(const ElementData& data, int first, int last, ElementResult& out) const override {
-    if (data.held.kind == Holding::assumed_strain)
-      find_forces<Frame, Holding::assumed_strain>(data, first, last, out);
-    else
-      find_forces<Frame, Holding::viscous>(data, first, last, out);
+    choose(data, [&]<Holding Kind, ElementReference On>() {
+      find_forces<Frame, Kind, On>(data, first, last, out);
+    });
   }
   void strain(const ElementData& data, const ElementScratch& scratch, double dt, int first,
               int last, ElementResult& out) const override {
-    if (data.held.kind == Holding::assumed_strain)
-      strain_elements<Frame, Holding::assumed_strain>(data, scratch, dt, first, last, out);
-    else
-      strain_elements<Frame, Holding::viscous>(data, scratch, dt, first, last, out);
+    choose(data, [&]<Holding Kind, ElementReference On>() {
+      strain_elements<Frame, Kind, On>(data, scratch, dt, first, last, out);
+    });
   }
 };
 

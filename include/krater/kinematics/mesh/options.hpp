@@ -27,9 +27,13 @@ struct ErosionOptions {
   }
 };
 
+/// Where gradients are taken (kinematics/mesh/placed_element.hpp).
+enum class ElementReference { current, initial };
+
 struct MeshOptions {
   double element = 0;  ///< edge [m]; a whole number of them fits along each axis of the body
   HourglassOptions hourglass;
+  ElementReference reference = ElementReference::current;
   ErosionOptions erosion;
 };
 
