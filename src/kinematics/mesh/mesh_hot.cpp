@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "krater/kinematics/mesh/mesh_sweeps.hpp"
+#include "krater/kinematics/mesh/mesh_frame_kernels.hpp"
 
 namespace krater::inline KRATER_ISA {
 

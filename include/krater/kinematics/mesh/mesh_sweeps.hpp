@@ -211,20 +211,23 @@ struct Kept {
   static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16;
 };
 
-/// The step's map of an element and its volume before.
+/// The step's map of a group, its volume before, and which group it is, of the body and of those
+/// that the stages work on.
 struct StepMap {
   Mat3<Pack> dtL;
   Pack volume;
   double dt;
+  int g, local;
 };
 
 /// Where the corners go: exact volume, length, and the place and velocity of the whole.
 template <class Frame, ElementReference On>
 KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& w,
                                     const ElementViews& view, const StepMap& map,
-                                    const Pack (&share)[corner_nodes(Frame::dim)], int g, int local,
+                                    const Pack (&share)[corner_nodes(Frame::dim)],
                                     Corners<Frame::dim>& at, ReferenceElement<Frame>& r) {
   constexpr int D = Frame::dim, N = corner_nodes(D);
+  const int g = map.g, local = map.local;
   for (int I = 0; I < N; ++I)
     for (int i = 0; i < D; ++i) at.x[I][i] = fma(Pack(map.dt), at.v[I][i], at.x[I][i]);
   ElementGeometry<Pack, Frame> after;
@@ -307,7 +310,7 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
           On == ElementReference::current ? e.volume : r.start.volume);
     store(kept + Kept::plastic * kLanes, view.plastic(g));
   }
-  move_group<Frame, On>(d, w, view, {dtL, e.volume, dt}, share, g, local, at, r);
+  move_group<Frame, On>(d, w, view, {dtL, e.volume, dt, g, local}, share, at, r);
   if constexpr (Kind == Holding::assumed_strain && On == ElementReference::initial) {
     Pack after[size];
     pulled_modes(h, r, at.x, modes, after);
@@ -381,32 +384,5 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
     }
   }
 }
-
-/// work.operator()<Kind, On>() of a body.
-template <class Work>
-void choose(const ElementData& data, const Work& work) {
-  constexpr auto current = ElementReference::current, initial = ElementReference::initial;
-  if (data.held.kind == Holding::viscous)
-    return data.reference == current ? work.template operator()<Holding::viscous, current>()
-                                     : work.template operator()<Holding::viscous, initial>();
-  return data.reference == current ? work.template operator()<Holding::assumed_strain, current>()
-                                   : work.template operator()<Holding::assumed_strain, initial>();
-}
-
-template <class Frame>
-class FrameMeshKernels final : public MeshKernels {
- public:
-  void forces(const ElementData& data, int first, int last, ElementResult& out) const override {
-    choose(data, [&]<Holding Kind, ElementReference On>() {
-      find_forces<Frame, Kind, On>(data, first, last, out);
-    });
-  }
-  void strain(const ElementData& data, const ElementScratch& scratch, double dt, int first,
-              int last, ElementResult& out) const override {
-    choose(data, [&]<Holding Kind, ElementReference On>() {
-      strain_elements<Frame, Kind, On>(data, scratch, dt, first, last, out);
-    });
-  }
-};
 
 }  // namespace krater::inline KRATER_ISA

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file kinematics/mesh/placed_element.hpp
-/// The geometry that forces and strains of an element are taken with (kinematics/mesh/element.hpp):
+/// The geometry that forces and strains of an element are taken with (mesh/element.hpp):
 ///   current   b, t, V of the corners where they are
 ///   initial   those of the start, b_0, t_0, V_0 at X, carried along by the mean gradient
 ///               F = sum_I x_I (x) b_0I/V_0,  F_tt = sum_I r_I t_0I/V_0,  J = det F,
@@ -10,7 +10,7 @@
 /// reference (theory 3), adjoint on both. On the initial one density is rho_0/J, hourglass does not
 /// change it, and V is a measure, not the volume between the corners.
 ///
-/// Hourglass on the initial reference: gamma_0 is not orthogonal to x, so the modes are pulled back,
+/// Hourglass on the initial reference: gamma_0 is not orthogonal to x, so modes are pulled back,
 ///   q_a = sum_I gamma_0aI x_I,  q^_a = F^T q_a,  Q^ <- s (Q^ + K_0 dq^),
 ///   f_I = - sum_a F Q^_a gamma_0aI - (sum_a q_a (x) Q^_a) B_0I,
 /// with K_0 the table of kinematics/mesh/hourglass.hpp at the start: objective, without moment, and
