@@ -58,7 +58,7 @@ bodies:
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 
 REFUSED = {
-    "a shape that is no block": ("bodies.bar.shape={sphere: {radius: 3 mm, center: [0, 0, 8 mm]}}", "kinematics: mpm"),
+    "a shape without a mesh": ("bodies.bar.shape={cone: {radius: 3 mm, height: 8 mm}}", "kinematics: mpm"),
     "points": ("bodies.bar.points={per_direction: 3}", "has elements, no points"),
     "a rigid body": ("bodies.bar.rigid=free", "cannot be rigid"),
     "a fixed reference": ("method.reference=initial", "current configuration only"),
