@@ -14,6 +14,7 @@
 #include "krater/app/run.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/geometry/meshes/mesh.hpp"
 #include "krater/geometry/seeds/column.hpp"
 #include "krater/measure/gauges.hpp"
 #include "krater/measure/measurements.hpp"
@@ -103,15 +104,34 @@ void print_elements(const Simulation& sim) {
   fmt::print("  time step {:.4g} s, {}\n", sim.stable_step(), sim.describe_limit());
 }
 
-void print_mesh(const Scene& scene, const BodyOptions& body) {
+void print_block(const Scene& scene, const BodyOptions& body) {
   const Box box =
       intersection(body.solid->extent(scene.frame), domain_box(scene), dimension(scene.frame));
   const auto counts = elements_along(scene.frame, box.min, box.max, body.mesh->element);
-  fmt::print("  lagrangian mesh:");
   for (int a = 0; a < dimension(scene.frame); ++a)
-    fmt::print("{} {} elements of {:.4g} m along {}", a > 0 ? "," : "",
+    fmt::print("{}{} elements of {:.4g} m along {}", a > 0 ? ", " : "",
                counts[static_cast<std::size_t>(a)],
                box.length(a) / counts[static_cast<std::size_t>(a)], axis_name(scene.frame, a));
+}
+
+/// What is not a block: its elements, and what their flat faces leave of the solid.
+void print_own_mesh(const Scene& scene, const BodyOptions& body, double volume) {
+  const Mesh& mesh = *body.mesh->mesh;
+  const MeshQuality quality = mesh_quality(mesh);
+  fmt::print("{} elements, edges {:.4g} to {:.4g} m, least scaled Jacobian {:.3f}",
+             mesh.element_count(), quality.shortest, quality.longest, quality.least_jacobian);
+  if (body.solid->elements() != nullptr) return;
+  const double whole = moments_in(*body.solid, scene.frame, domain_box(scene)).volume;
+  fmt::print(", volume and mass {:+.3g} % of the shape's (nodes on its surface, faces flat)",
+             100 * (volume / whole - 1));
+}
+
+void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
+  fmt::print("  lagrangian mesh: ");
+  if (body.mesh->mesh)
+    print_own_mesh(scene, body, volume);
+  else
+    print_block(scene, body);
   fmt::print("; hourglass: {}\n", body.mesh->hourglass.kind == HourglassOptions::Kind::viscous
                                       ? "viscous"
                                       : "assumed strain");
@@ -127,7 +147,7 @@ void print_body(const Simulation& sim, const Scene& scene, int index, int coarse
     fmt::print("  rigid, {}:{}\n", rigid->options().free ? "free" : "prescribed motion",
                describe_motion(scene.frame, rigid->options()));
   if (body.options().mesh)
-    print_mesh(scene, body.options());
+    print_mesh(scene, body.options(), t.mass / body.material().density);
   else
     print_shape(scene, body, coarser);
   fmt::print("  stages:");

@@ -23,8 +23,9 @@ MeshFrame mesh_frame(Frame frame) {
   return MeshFrame::space;
 }
 
-/// The block that the body fills inside the domain.
+/// The body's own mesh, or the block that it fills inside the domain.
 Mesh mesh_of(const Scene& scene, const BodyOptions& body) {
+  if (body.mesh->mesh) return *body.mesh->mesh;
   const int dim = dimension(scene.frame);
   const Box box = intersection(body.solid->extent(scene.frame), domain_box(scene), dim);
   return block_mesh(dim, box.min, box.max,
@@ -53,6 +54,7 @@ void Simulation::place_meshes() {
       for (std::size_t a = 0; a < 3; ++a)
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);
+      mesh_->set_impulses(impulses_, scene_.contact.active);
     }
     const MaterialPlan plan = material_plan(body.material());
     ElementBody made{.body = static_cast<int>(b),

@@ -58,7 +58,7 @@ bodies:
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 
 REFUSED = {
-    "a shape that is no block": ("bodies.bar.shape={sphere: {radius: 3 mm, center: [0, 0, 8 mm]}}", "kinematics: mpm"),
+    "a shape without a mesh": ("bodies.bar.shape={cone: {radius: 3 mm, height: 8 mm}}", "kinematics: mpm"),
     "points": ("bodies.bar.points={per_direction: 3}", "has elements, no points"),
     "a rigid body": ("bodies.bar.rigid=free", "cannot be rigid"),
     "a fixed reference of points": ("method.reference=initial", "reference of its own"),
@@ -203,10 +203,17 @@ def main():
         for what, (value, word) in REFUSED.items():
             done = run("refused", value, scene=bar)
             check(done.returncode == 2 and word in done.text, f"refused: {what}", done.text[-300:])
-        done = run("refused", "materials.copper.spall={strength: 1 GPa, action: fail}",
+        done = run("eroded", "materials.copper.spall={strength: 1 GPa, action: fail}",
                    "materials.copper.failure={action: remove}", scene=bar)
-        check(done.returncode == 2 and "keeps its failed elements" in done.text, "refused: elements that failure removes",
-              done.text[-300:])
+        told = summary("eroded")
+        check(done.returncode == 0 and "elements were eroded" in done.text
+              and told["audit"]["eroded_by"]["failed"] == told["audit"]["eroded_elements"] > 0,
+              "elements that failure removes are eroded", done.text[-300:])
+        frame = sorted(pathlib.Path("eroded", "frames").glob("*.h5"))[-1]
+        with h5py.File(frame) as file:
+            corners, ids = file["bar/connectivity"][()], file["bar/id"][()]
+        check(len(corners) == len(ids) == told["points"] and (np.diff(ids) > 0).all(),
+              "the last frame has the elements that are left")
         two = BAR.replace("measures:", "  other: {material: copper, shape: {cylinder: {radius: 1 mm, height: 1 mm, base: "
                                        "[0, 33 mm]}}}\nmeasures:").replace("max: [12 mm, 35.2 mm]", "max: [12 mm, 40 mm]")
         bar.write_text(two, encoding="utf-8")

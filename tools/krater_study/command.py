@@ -16,7 +16,7 @@ from members import Engine, text_of, write_json
 from refinement import Convergence
 from search import BallisticLimit, Calibrate
 from settings import Ablation, Pareto, Sweep
-from study_file import InputError, Study, flow, seconds
+from study_file import InputError, Study, flow, load, seconds
 
 KINDS = {"convergence": Convergence, "pareto": Pareto, "ablation": Ablation, "sweep": Sweep,
          "ballistic_limit": BallisticLimit, "calibrate": Calibrate}
@@ -47,11 +47,33 @@ def options(words):
     return parser.parse_args(words)
 
 
+def digest(path):
+    with open(path, "rb") as file:
+        return f"{os.path.basename(path)} {hashlib.sha256(file.read()).hexdigest()}"
+
+
+def words_of(tree):
+    if isinstance(tree, dict):
+        tree = tree.values()
+    elif isinstance(tree, str):
+        return [tree]
+    return [word for item in tree for word in words_of(item)]
+
+
+def files_of(scene):
+    """Files beside a scene that it names: meshes and surfaces. A scene that cannot be read is left to krater."""
+    try:
+        words = words_of(load(scene))
+    except InputError:
+        return []
+    paths = [os.path.join(os.path.dirname(scene), word) for word in dict.fromkeys(words) if "." in word]
+    return [path for path in paths if os.path.isfile(path)]
+
+
 def makes(study):
     """Digests of what makes the members."""
-    with open(study.scene, "rb") as file:
-        scene = hashlib.sha256(file.read()).hexdigest()
-    return {"study": study.kind, "scene": f"{os.path.basename(study.scene)} {scene}",
+    return {"study": study.kind, "scene": digest(study.scene),
+            **{f"file {os.path.basename(path)}": digest(path) for path in files_of(study.scene)},
             **{key: flow(study.keys[key]) for key in MAKES if key in study.keys},
             **{f"--set {path}": value for path, value in study.said.items()}}
 

@@ -157,6 +157,13 @@ class MappedSolid final : public Solid {
     return own->mapped(map_);
   }
 
+  std::optional<RoundForm> round_form() const override {
+    double factor = 1;
+    const auto own = solid_->round_form();
+    if (!own || !map_.is_similarity(&factor)) return std::nullopt;
+    return own->mapped(map_, factor);
+  }
+
   std::shared_ptr<const Solid> mapped(const Affine& map) const override {
     return std::make_shared<MappedSolid>(solid_, map * map_);
   }

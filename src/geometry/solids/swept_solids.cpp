@@ -49,9 +49,24 @@ class SweptSolid : public Solid {
 
 // -------------------------------------------------------------------------------------- revolution
 
+/// Of a rectangle revolved about z: a tube or cylinder.
+std::optional<RoundForm> tube_of(const Profile& profile) {
+  if (profile.size() != 4) return std::nullopt;
+  Vector3 low{profile[0].u0, 0, profile[0].v0}, high = low;
+  for (const ProfileEdge& e : profile) {
+    if (e.arc || (e.u0 != e.u1 && e.v0 != e.v1)) return std::nullopt;
+    low = {std::min(low[0], e.u0), 0, std::min(low[2], e.v0)};
+    high = {std::max(high[0], e.u0), 0, std::max(high[2], e.v0)};
+  }
+  return RoundForm{RoundForm::Kind::tube, low[0],         high[0],
+                   high[2] - low[2],      {0, 0, low[2]}, {0, 0, 1}};
+}
+
 class RevolvedSolid final : public SweptSolid {
  public:
-  explicit RevolvedSolid(const Profile& profile) : SweptSolid(profile) {}
+  explicit RevolvedSolid(const Profile& profile) : SweptSolid(profile), form_{tube_of(profile)} {}
+
+  std::optional<RoundForm> round_form() const override { return form_; }
 
   using Solid::contains;
 
@@ -145,6 +160,8 @@ class RevolvedSolid final : public SweptSolid {
     const Roots roots = real_roots(c, 4);
     for (std::size_t n = 0; n < roots.count; ++n) cuts.push_back(nearest + unit * roots.x[n]);
   }
+
+  std::optional<RoundForm> form_;
 };
 
 // --------------------------------------------------------------------------------------- extrusion

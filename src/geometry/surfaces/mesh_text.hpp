@@ -83,6 +83,7 @@ class MeshText {
   }
 
   std::size_t offset() const { return at_; }
+  std::size_t line() const { return line_; }
   std::size_t left() const { return text_.size() - at_; }
 
   static std::string shown(std::string_view text) {

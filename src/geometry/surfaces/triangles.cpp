@@ -2,41 +2,20 @@
 #include "krater/geometry/surfaces/triangles.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
 
+#include "geometry/surfaces/file_text.hpp"
 #include "geometry/surfaces/mesh_formats.hpp"
 #include "geometry/surfaces/surface_topology.hpp"
 #include "krater/geometry/solids/affine.hpp"
 
 namespace krater {
 namespace {
-
-constexpr std::uintmax_t most_bytes = 8ULL << 30;
-
-std::string read_file(const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (!fs::exists(file, error)) throw std::invalid_argument(file + ": no such file");
-  if (!fs::is_regular_file(file, error)) throw std::invalid_argument(file + ": not a plain file");
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size > most_bytes) {
-    throw std::invalid_argument(file + ": cannot be read, or is larger than 8 GiB");
-  }
-  std::string data(static_cast<std::size_t>(size), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(data.data(), static_cast<std::streamsize>(data.size()));
-  if (stream.gcount() != static_cast<std::streamsize>(data.size())) {
-    throw std::invalid_argument(file + ": cannot be read");
-  }
-  return data;
-}
 
 struct CellHash {
   std::size_t operator()(const std::array<std::int64_t, 3>& c) const {
@@ -102,24 +81,23 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 }  // namespace
 
 Triangles read_triangles(const std::string& file, double unit) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending != ".stl" && ending != ".off" && ending != ".obj" && ending != ".ply") {
+  const std::string ending = file_ending(file);
+  if (ending != "stl" && ending != "off" && ending != "obj" && ending != "ply") {
     throw std::invalid_argument(file + ": surfaces are read from .stl, .off, .obj and .ply files");
   }
   Triangles out;
   {
-    const std::string bytes = read_file(file);
+    const std::string bytes = file_text(file);
     if (bytes.empty()) throw std::invalid_argument(file + ": is empty");
     std::string_view data = bytes;
-    if (ending == ".stl") out = read_stl(file, data);
+    if (ending == "stl") out = read_stl(file, data);
     if (data.starts_with(kByteOrderMark)) data.remove_prefix(kByteOrderMark.size());
-    if (ending == ".off") out = read_off(file, data);
-    if (ending == ".obj") out = read_obj(file, data);
-    if (ending == ".ply") out = read_ply(file, data);
+    if (ending == "off") out = read_off(file, data);
+    if (ending == "obj") out = read_obj(file, data);
+    if (ending == "ply") out = read_ply(file, data);
   }
   if (out.facets.empty()) throw std::invalid_argument(file + ": has no facets");
-  if (ending == ".stl" || has_open_edges(out)) weld(out, 0);
+  if (ending == "stl" || has_open_edges(out)) weld(out, 0);
   for (Vector3& x : out.vertices) {
     for (double& value : x) value *= unit;
   }

@@ -11,14 +11,8 @@ namespace krater {
 
 inline constexpr std::size_t kMass = 3, kVelocity = 4, kHeat = 7;  ///< in the record of a node
 
-inline double dot(const Triple& a, const Triple& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 inline void add_to(Triple& sum, double k, const Triple& x) {
   for (std::size_t a = 0; a < 3; ++a) sum[a] += k * x[a];
-}
-inline Triple minus(const Triple& a, const Triple& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 inline double length_of(const Triple& a) { return std::sqrt(dot(a, a)); }
 

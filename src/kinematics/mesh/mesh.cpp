@@ -1,59 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/kinematics/mesh/mesh.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
-#include <stdexcept>
-#include <utility>
 
 #include <Eigen/Dense>
 
 #include "krater/kinematics/mesh/element.hpp"
 
 namespace krater {
-
-Mesh block_mesh(int dimension, const Triple& lower, const Triple& upper,
-                const std::array<int, 3>& counts) {
-  const int layers = dimension == 3 ? counts[2] : 0;
-  if (counts[0] < 1 || counts[1] < 1 || (dimension == 3 && layers < 1))
-    throw std::invalid_argument("block_mesh: less than one element along an axis");
-  Mesh mesh{dimension, {}, {}};
-  const auto node = [&](int i, int j, int k) {
-    return (k * (counts[1] + 1) + j) * (counts[0] + 1) + i;
-  };
-  for (int k = 0; k <= layers; ++k)
-    for (int j = 0; j <= counts[1]; ++j)
-      for (int i = 0; i <= counts[0]; ++i) {
-        const std::array<int, 3> at{i, j, k};
-        Triple x{};
-        for (unsigned a = 0; a < static_cast<unsigned>(dimension); ++a) {
-          const double share = static_cast<double>(at[a]) / counts[a];
-          x[a] = (1 - share) * lower[a] + share * upper[a];
-        }
-        mesh.nodes.push_back(x);
-      }
-  for (int k = 0; k < std::max(1, layers); ++k)
-    for (int j = 0; j < counts[1]; ++j)
-      for (int i = 0; i < counts[0]; ++i)
-        for (int I = 0; I < mesh.corners(); ++I) {
-          const auto step = [&](int axis) { return corner_sign(dimension, I, axis) > 0 ? 1 : 0; };
-          const int up = dimension == 3 ? step(2) : 0;
-          mesh.elements.push_back(node(i + step(0), j + step(1), k + up));
-        }
-  return mesh;
-}
-
-std::array<int, 3> elements_along(Frame frame, const Triple& lower, const Triple& upper,
-                                  double element) {
-  std::array<int, 3> counts{1, 1, 1};
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(frame)); ++a)
-    counts[a] = std::max(1, static_cast<int>(std::lround((upper[a] - lower[a]) / element)));
-  return counts;
-}
 
 NodeCorners node_corners(const Mesh& mesh) {
   NodeCorners out;
@@ -65,46 +21,6 @@ NodeCorners node_corners(const Mesh& mesh) {
   for (std::size_t p = 0; p < mesh.elements.size(); ++p)
     out.places[next[static_cast<std::size_t>(mesh.elements[p])]++] = static_cast<std::uint32_t>(p);
   return out;
-}
-
-const std::vector<std::vector<std::size_t>>& element_faces(int dimension) {
-  static const std::vector<std::vector<std::size_t>> edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
-      faces{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  return dimension == 2 ? edges : faces;
-}
-
-std::vector<std::array<std::int32_t, 4>> exposed_faces(const Mesh& mesh) {
-  const auto corners = static_cast<std::size_t>(mesh.corners());
-  using Face = std::array<std::int32_t, 4>;
-  std::map<Face, std::pair<int, Face>> faces;
-  for (std::size_t e = 0; e < mesh.element_count(); ++e)
-    for (const auto& face : element_faces(mesh.dimension)) {
-      Face around{-1, -1, -1, -1};
-      for (std::size_t k = 0; k < face.size(); ++k)
-        around[k] = mesh.elements[e * corners + face[k]];
-      Face key = around;
-      std::sort(key.begin(), key.end());
-      auto& seen = faces[key];
-      ++seen.first;
-      seen.second = around;
-    }
-  std::vector<Face> exposed;
-  for (const auto& [key, seen] : faces)
-    if (seen.first == 1) exposed.push_back(seen.second);
-  return exposed;
-}
-
-std::vector<std::array<std::int32_t, 2>> surface_edges(
-    const std::vector<std::array<std::int32_t, 4>>& faces) {
-  std::set<std::array<std::int32_t, 2>> edges;
-  for (const auto& face : faces) {
-    const std::size_t corners = face[2] < 0 ? 2 : 4;
-    for (std::size_t k = 0; k < corners; ++k) {
-      const std::int32_t a = face[k], b = face[(k + 1) % corners];
-      edges.insert({std::min(a, b), std::max(a, b)});
-    }
-  }
-  return {edges.begin(), edges.end()};
 }
 
 namespace {

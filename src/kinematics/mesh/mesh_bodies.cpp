@@ -114,6 +114,26 @@ void place_nodes(const std::vector<double>& volumes, MeshStep::Elements& body) {
   }
 }
 
+/// Of the elements at the start: the mean of their corners by mass, as every step gives it.
+void find_velocities(MeshStep::Elements& body) {
+  const std::size_t corners = body.corner_count();
+  for (int e = 0; e < body.elements.count(); ++e)
+    for (int a = 0; a < body.made_of.mesh.dimension; ++a) {
+      double momentum = 0, mass = 0;
+      for (std::size_t I = 0; I < corners; ++I) {
+        const std::size_t group = static_cast<std::size_t>(e / kLanes),
+                          at =
+                              (group * corners + I) * kLanes + static_cast<std::size_t>(e % kLanes);
+        mass += body.shares.data()[at];
+        momentum +=
+            body.shares.data()[at] *
+            body.node(static_cast<std::size_t>(body.corners[at]))[4 + static_cast<std::size_t>(a)];
+      }
+      body.elements.at(body.columns.velocity + kLanes * a, e) = momentum / mass;
+    }
+  body.elements.pad(body.columns.mass);
+}
+
 }  // namespace
 
 void declare_elements(double density, Layout& layout) {
@@ -147,6 +167,11 @@ MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audi
 
 MeshStep::~MeshStep() = default;
 
+void MeshStep::set_impulses(Impulses& impulses, bool apart) {
+  impulses_ = &impulses;
+  apart_ = apart;
+}
+
 void MeshStep::add(ElementBody made_of) {
   auto body = std::make_unique<Elements>();
   body->made_of = std::move(made_of);
@@ -164,6 +189,7 @@ void MeshStep::add(ElementBody made_of) {
   sort_by_lanes(volumes, *body);
   place_nodes(volumes, *body);
   note_planes(*body);
+  find_velocities(*body);
   if (body->erodes()) {
     body->first = find_neighbours(m.mesh);
     for (const double volume : volumes) body->first.shares.push_back(m.density * volume);

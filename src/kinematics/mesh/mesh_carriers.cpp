@@ -13,10 +13,6 @@ namespace {
 constexpr std::size_t kRoom = 512;  // nodes of the box per carrier, and no more
 constexpr double kReach = 3;        // cells: bodies further apart cannot meet in a step
 
-Triple cross(const Triple& a, const Triple& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Triple place_of(const MeshNodes& nodes, std::int32_t n) {
   const double* x = nodes.records + kNode * static_cast<std::size_t>(n);
   return {x[0], x[1], x[2]};

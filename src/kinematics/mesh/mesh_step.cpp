@@ -144,7 +144,18 @@ void MeshStep::over_nodes(const Work& work) {
     for (const WallSums& s : sums) {
       audit_.wall_heat += s.heat;
       for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += s.impulse[a];
+      note_sides(*body, s);
     }
+  }
+}
+
+void MeshStep::note_sides(const Elements& body, const WallSums& sums) {
+  if (impulses_ == nullptr || !impulses_->any()) return;
+  const FieldId on = apart_ ? own_field(body.made_of.body) : FieldId{};
+  for (const PushingSide& side : pushing_) {
+    const int upper = side.inwards < 0 ? 1 : 0, axis = static_cast<int>(side.axis);
+    impulses_->add({{on, Partner::side(axis, upper),
+                     sums.by_side[static_cast<std::size_t>(2 * axis + upper)]}});
   }
 }
 
@@ -219,9 +230,11 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
       if (!(missing > 0)) continue;
       const Triple push = push_of(side, missing, node, change);
       pushed = true;
+      Triple& by_side = sums.by_side[2 * side.axis + (side.inwards < 0 ? 1 : 0)];
       for (std::size_t t = 0; t < dim; ++t) {
         change[t] += push[t];
         all[t] += push[t];
+        by_side[t] += node[3] * push[t];
       }
     }
     if (!pushed) continue;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 
-#include "krater/kinematics/mesh/mesh.hpp"
+#include <fmt/format.h>
+
+#include "krater/geometry/meshes/mesh.hpp"
+#include "krater/geometry/meshes/round_mesh.hpp"
 #include "scene/readers/readers.hpp"
 
 namespace krater::scene {
@@ -70,8 +73,8 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
       report_unknown(node, "kinematics", node.text, {"mpm", "lagrangian_mesh"}, reading.problems);
       return node;
     }
-    body.mesh = MeshOptions{
-        .element = reading.scene.grid.cell, .hourglass = {}, .reference = {}, .erosion = {}};
+    body.mesh = MeshOptions{};
+    body.mesh->element = reading.scene.grid.cell;
     return string_node("lagrangian_mesh");
   }
   Block block{&node, node.path, node, reading.problems};
@@ -101,6 +104,38 @@ bool is_block(const BodyOptions& body, const Scene& scene, const Box& box) {
   return std::abs(content / whole - 1) < 1e-9;
 }
 
+/// What lies on a side of the domain but for the digits of a file lies on it; what lies beyond is
+/// told.
+void fit_to_domain(Mesh& mesh, const Scene& scene) {
+  const double near = 1e-6 * mesh_quality(mesh).shortest;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    for (int axis = 0; axis < dimension(scene.frame); ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      double& x = mesh.nodes[n][a];
+      for (const double plane : {scene.grid.min[a], scene.grid.max[a]})
+        if (std::abs(x - plane) <= near) x = plane;
+      if (x >= scene.grid.min[a] && x <= scene.grid.max[a]) continue;
+      throw std::invalid_argument(
+          fmt::format("has a node at {} = {:g} m, outside grid.box: elements of a file cannot be "
+                      "cut; move the body, or make the box larger",
+                      axis_name(scene.frame, axis), x));
+    }
+}
+
+/// The mesh of a body that is no block.
+void make_mesh(BodyOptions& body, const Scene& scene) {
+  const Box domain{scene.grid.min, scene.grid.max};
+  Mesh mesh{};
+  if (body.solid->elements() != nullptr) {
+    mesh = *body.solid->elements();
+    fit_to_domain(mesh, scene);
+  } else {
+    mesh = round_mesh(*body.solid, scene.frame, domain, body.mesh->element);
+  }
+  body.point_estimate = static_cast<double>(mesh.element_count());
+  body.mesh->mesh = std::make_shared<const Mesh>(std::move(mesh));
+}
+
 void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
   const Scene& scene = reading.scene;
   const auto fail = [&](const Node& at, const std::string& what) {
@@ -115,12 +150,14 @@ void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
   if (body.rigid()) fail(*node.find("rigid"), only + "cannot be rigid: leave one of the two out");
   const Box box = intersection(body.solid->extent(scene.frame), {scene.grid.min, scene.grid.max},
                                dimension(scene.frame));
-  if (!is_block(body, scene, box))
-    return fail(*node.find("shape"),
-                only +
-                    "is meshed where it is a block along the grid's axes: a box, or in the "
-                    "axisymmetric frame a full cylinder about the axis; use kinematics: mpm for "
-                    "other shapes");
+  if (body.solid->elements() != nullptr || !is_block(body, scene, box)) {
+    try {
+      make_mesh(body, scene);
+    } catch (const std::invalid_argument& error) {
+      fail(*node.find("shape"), only + error.what());
+    }
+    return;
+  }
   body.point_estimate = 1;
   const std::array<int, 3> counts =
       elements_along(scene.frame, box.min, box.max, body.mesh->element);
@@ -159,11 +196,6 @@ void check_alone(const Node& place, Reading& reading) {
   if (scene.method.energy_alpha != 0.5)
     fail("takes Algorithm 1 with alpha 1/2 only: leave out method.energy_alpha");
   if (!scene.detonators.empty()) fail("is not lit by detonators yet; use kinematics: mpm");
-  for (const MeasureOptions& measure : scene.measures)
-    if (std::any_of(measure.by.begin(), measure.by.end(),
-                    [](const Partner& by) { return by.kind != Partner::Kind::body; }))
-      fail("has no measures of what one side of the domain did to a body (" + measure.name +
-           "): wall_impulse of the history is that of all sides");
   for (const auto& axis : scene.grid.boundary)
     for (const Boundary& side : axis)
       if (side.drives())

@@ -269,6 +269,7 @@ constexpr ShapeReader kShapes[] = {{"cylinder", read_cylinder},
                                    {"extrusion", read_extrusion},
                                    {"revolution", read_revolution},
                                    {"surface", read_surface},
+                                   {"mesh", read_mesh},
                                    {"move", read_move},
                                    {"rotate", read_rotate},
                                    {"scale", read_scale}};

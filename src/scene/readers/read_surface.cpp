@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <filesystem>
 #include <stdexcept>
 
 #include "krater/geometry/surfaces/surface.hpp"
-#include "krater/scene/yaml/units.hpp"
 #include "scene/readers/read_shapes.hpp"
 
 namespace krater::scene {
@@ -26,15 +24,6 @@ RepairOptions read_repair(const Node* node, Block& parent, Reading& reading) {
   return repair;
 }
 
-/// Metres of one unit of the file.
-double read_unit(const Node& node, Reading& reading) {
-  const std::optional<std::string> word = read_word(node, reading.problems);
-  if (!word) return 0;
-  Node one = node;
-  one.text = "1 " + *word;
-  return read_number(one, "m", Range::positive, reading.problems).value_or(0);
-}
-
 }  // namespace
 
 std::shared_ptr<const Solid> read_surface(Block& block, Reading& reading) {
@@ -44,15 +33,11 @@ std::shared_ptr<const Solid> read_surface(Block& block, Reading& reading) {
                                    "in the file");
   const RepairOptions repair = read_repair(block.find("repair"), block, reading);
   const std::optional<std::string> name = file ? read_word(*file, reading.problems) : std::nullopt;
-  const double metres = unit ? read_unit(*unit, reading) : 0;
+  const double metres = unit ? read_file_unit(*unit, reading) : 0;
   if (reading.problems.any() || !name) return nullptr;
-  namespace fs = std::filesystem;
-  const fs::path path = fs::path{reading.scene.file}.parent_path() / *name;
-  // Absolute: resolved.yaml lies elsewhere than the scene.
-  std::error_code error;
-  block.record("file", string_node(fs::absolute(path, error).lexically_normal().string()));
+  const std::string path = read_file_path(block, *name, reading);
   block.record("unit", string_node(unit->text));
-  Triangles triangles = read_triangles(path.string(), metres);
+  Triangles triangles = read_triangles(path, metres);
   for (const std::string& done : repair_surface(triangles, repair))
     reading.scene.notes.push_back(block.place().where() + ": " + *name + ": " + done);
   const SurfaceDefects defects = examine_surface(triangles);

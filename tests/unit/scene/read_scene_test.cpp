@@ -126,7 +126,7 @@ TEST_SUITE("unit") {
       const std::string stem = entry.path().stem().string();
       // No axis; square bars; a square plate held at two edges.
       if (stem == "two_discs" || stem == "ccf_two_bars" || stem == "spear_plate") continue;
-      if (stem == "copper_bar_elements") continue;  // a cylinder is no block in 3d
+      if (stem == "round_nosed_rod") continue;  // its file holds axisymmetric elements
       const bool hole = stem == "ccf_plugging" || stem == "hiermaier_al";
       for (Frame frame : all_frames) {
         if (hole && frame == Frame::plane_strain) continue;  // there a hole is a slot

@@ -76,6 +76,11 @@ class CylinderSolid final : public Primitive {
   double support(const Vector3& d) const override;
   Box bounding_box() const override;
   void require(Frame frame) const override;
+  std::optional<RoundForm> round_form() const override {
+    RoundForm out{RoundForm::Kind::tube, 0, radius_, height_, base_, {}};
+    out.axis[axis_] = 1;
+    return out;
+  }
 
  protected:
   Section section() const override;
@@ -94,6 +99,10 @@ class CylinderSolid final : public Primitive {
 class SphereSolid final : public Primitive {
  public:
   SphereSolid(double radius, const std::array<double, 3>& centre);
+
+  std::optional<RoundForm> round_form() const override {
+    return RoundForm{RoundForm::Kind::sphere, 0, radius_, 0, centre_, {0, 0, 1}};
+  }
 
   using Primitive::contains;
   bool contains(double x, double y, double z) const override;

@@ -25,6 +25,7 @@
 #include "krater/geometry/seeds/section.hpp"
 #include "krater/geometry/solids/affine.hpp"
 #include "krater/geometry/solids/box.hpp"
+#include "krater/geometry/solids/round_form.hpp"
 
 namespace krater {
 
@@ -46,6 +47,8 @@ CellPart from_section(Frame frame, const PlaneMoments& moments);
 
 /// The box without the half plane r < 0, which the axisymmetric frame does not have.
 Box in_frame(Frame frame, Box box);
+
+struct Mesh;
 
 enum class Place { outside, inside, cut };
 
@@ -72,6 +75,12 @@ class Solid {
 
   /// Exact moments of the whole solid, where known in closed form (to round-off).
   virtual std::optional<VolumeMoments> moments() const { return std::nullopt; }
+
+  /// Of spheres, cylinders and tubes, moved, turned and scaled evenly too.
+  virtual std::optional<RoundForm> round_form() const { return std::nullopt; }
+
+  /// The elements that the solid was read as; null: it has none.
+  virtual const Mesh* elements() const { return nullptr; }
 
   /// The image under a map, for solids that know better than to map every line; null: wrap it.
   virtual std::shared_ptr<const Solid> mapped(const Affine&) const { return nullptr; }

@@ -14,6 +14,7 @@
 #include <memory>
 #include <vector>
 
+#include "krater/contact/impulses.hpp"
 #include "krater/contact/options.hpp"
 #include "krater/core/aligned.hpp"
 #include "krater/geometry/frame.hpp"
@@ -79,6 +80,8 @@ class MeshStep final : public Kinematics {
   MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit);
   ~MeshStep() override;
 
+  /// Who is told what sides give bodies; `apart`: bodies are velocity fields of their own.
+  void set_impulses(Impulses& impulses, bool apart);
   /// Throws InputError where an element has no volume or a node no element.
   void add(ElementBody body);
   void start();  ///< after the last body: forces, energies, and the first limit of the step
@@ -122,7 +125,8 @@ class MeshStep final : public Kinematics {
  private:
   struct WallSums {
     double heat = 0;
-    std::array<double, 3> impulse{};
+    std::array<Triple, 6> by_side{};  ///< on the body, of each side that pushes [N s]
+    Triple impulse{};
   };
   struct PushingSide {  ///< a wall, or a side that holds what touches it
     std::size_t axis;
@@ -146,6 +150,7 @@ class MeshStep final : public Kinematics {
   void lose_heat(const Elements& body);
   template <class Work>
   void over_nodes(const Work& work);
+  void note_sides(const Elements& body, const WallSums& sums);
   void find_limit(const std::vector<ElementResult>& results);
   void book(const std::vector<ElementResult>& results, const Standing& others);
 
@@ -156,6 +161,8 @@ class MeshStep final : public Kinematics {
   Audit& audit_;
   std::vector<std::unique_ptr<Elements>> bodies_;
   std::vector<Chunk> chunks_;
+  Impulses* impulses_ = nullptr;
+  bool apart_ = false;
   std::size_t shape_changes_ = 0;
   std::vector<AlignedBuffer> scratch_;
   TimeStepLimit limit_;

@@ -5,7 +5,11 @@
 #include <array>
 #include <limits>
 
+#include <memory>
+
 namespace krater {
+
+struct Mesh;
 
 /// How the modes that one point does not see are held (kinematics/mesh/hourglass.hpp).
 struct HourglassOptions {
@@ -31,7 +35,8 @@ struct ErosionOptions {
 enum class ElementReference { current, initial };
 
 struct MeshOptions {
-  double element = 0;  ///< edge [m]; a whole number of them fits along each axis of the body
+  double element = 0;  ///< edge [m]: a whole number of them fits along each axis of a block
+  std::shared_ptr<const Mesh> mesh;  ///< of what is no block; null: a block
   HourglassOptions hourglass;
   ElementReference reference = ElementReference::current;
   ErosionOptions erosion;
