@@ -121,6 +121,8 @@ FIGURES = {
     "fronts": lambda r: Figure("W of Taylor copper to 1 %: core time, cheapest setting",
                                r.cell("^w diameter", "^1 %").split(":")[0]),
     "hiermaier_al": lambda r: r.finest("hole (experiment 31.0 mm)", "hole mm", "^40 cells", "^20 cells"),
+    "kinematics": lambda r: Figure("plugging, elements at 20 through the plate (measured 241.4 m/s)",
+                                   r.cell("^elements, 20 through", "residual velocity") + " m/s"),
     "manufactured": lambda r: Figure("error of the bar, G = 0.05, 128 cells, gimp (order)",
                                      r.tables[1].at("^gimp, tflip", "N = 128") + " m"),
     "materials": lambda r: Figure("flow curves against their closed form, worst", f"{worst(r, 'closed form'):.0e}"),

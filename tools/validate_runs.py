@@ -118,6 +118,11 @@ class Study:
         self.identity = digest(self.krater, self.scene)
         return self.run(label, settings, seconds)
 
+    def use(self, scene):
+        """Runs from here on are of another scene of the project."""
+        self.scene = os.path.join(ROOT, scene)
+        self.identity = digest(self.krater, self.scene, *cards())
+
     def run(self, label, settings=(), seconds=0.0, threads=1, without=()):
         """Run `label` with --set options; None if it fails or the budget does not allow it. `without`: lines
         of the scene to leave out, for a block whose absence is the switch."""

@@ -132,9 +132,9 @@ void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
     print_own_mesh(scene, body, volume);
   else
     print_block(scene, body);
-  fmt::print("; hourglass: {}\n", body.mesh->hourglass.kind == HourglassOptions::Kind::viscous
-                                      ? "viscous"
-                                      : "assumed strain");
+  constexpr std::array kinds{"assumed strain", "stiffness", "viscous"};
+  fmt::print("; hourglass: {}{}\n", kinds[static_cast<std::size_t>(body.mesh->hourglass.kind)],
+             body.mesh->reference == ElementReference::initial ? ", on the initial reference" : "");
 }
 
 void print_body(const Simulation& sim, const Scene& scene, int index, int coarser) {

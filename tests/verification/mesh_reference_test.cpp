@@ -105,8 +105,8 @@ ClosedPath closed_path(const std::string& frame, ElementReference reference) {
 TEST_SUITE("verification") {
   TEST_CASE("mesh: on the initial reference momentum, spin and energy are exact too") {
     for (const std::string frame : {"3d", "plane_strain", "axisymmetric"})
-      for (const auto kind :
-           {HourglassOptions::Kind::assumed_strain, HourglassOptions::Kind::viscous}) {
+      for (const auto kind : {HourglassOptions::Kind::assumed_strain,
+                              HourglassOptions::Kind::stiffness, HourglassOptions::Kind::viscous}) {
         CAPTURE(frame);
         const int dim = frame == "3d" ? 3 : 2;
         const std::string v = dim == 3 ? "[\"0.1*y\", \"-0.1*x\", \"0.1*sin(3*x*y)\"]"

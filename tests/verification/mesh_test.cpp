@@ -120,8 +120,8 @@ TEST_SUITE("verification") {
 
   TEST_CASE("mesh: momentum, angular momentum and energy of a shaken, colliding block") {
     for (const std::string frame : {"3d", "plane_strain"})
-      for (const auto kind :
-           {HourglassOptions::Kind::assumed_strain, HourglassOptions::Kind::viscous}) {
+      for (const auto kind : {HourglassOptions::Kind::assumed_strain,
+                              HourglassOptions::Kind::stiffness, HourglassOptions::Kind::viscous}) {
         const int dim = frame == "3d" ? 3 : 2;
         const std::string v = dim == 3 ? "[\"0.1*y\", \"-0.1*x\", \"0.1*sin(3*x*y)\"]"
                                        : "[\"0.2*z\", \"-0.2*x + 0.1*sin(4*x)\"]";

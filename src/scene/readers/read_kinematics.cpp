@@ -18,18 +18,25 @@ using Kind = HourglassOptions::Kind;
 void read_hourglass(Block& mesh, HourglassOptions& out, Reading& reading) {
   const Node* node = mesh.find("hourglass");
   if (node == nullptr || node->kind == Node::Kind::scalar) {
-    out.kind = mesh.choice<Kind>(
-        "hourglass", {{"assumed_strain", Kind::assumed_strain}, {"viscous", Kind::viscous}},
-        Kind::assumed_strain);
+    out.kind = mesh.choice<Kind>("hourglass",
+                                 {{"assumed_strain", Kind::assumed_strain},
+                                  {"stiffness", Kind::stiffness},
+                                  {"viscous", Kind::viscous}},
+                                 Kind::assumed_strain);
     return;
   }
   Block block{node, node->path, *node, reading.problems};
-  const auto value = block.optional_number(
+  const auto viscous = block.optional_number(
       {"viscous", "1", Range::positive, 0.1, "coefficient of the viscous hourglass"});
-  if (value)
-    out = {Kind::viscous, *value};
+  const auto stiffness = block.optional_number(
+      {"stiffness", "1", Range::positive, 0.05, "coefficient of the stiffness of the hourglass"});
+  if (viscous.has_value() == stiffness.has_value())
+    block.fail(*node,
+               "expected assumed_strain, stiffness, viscous, {stiffness: 0.05} or {viscous: 0.1}");
+  else if (viscous)
+    out = {.kind = Kind::viscous, .viscous = *viscous};
   else
-    block.fail(*node, "expected assumed_strain, viscous or {viscous: 0.1}");
+    out = {.kind = Kind::stiffness, .stiffness = *stiffness};
   mesh.record("hourglass", block.finish());
 }
 

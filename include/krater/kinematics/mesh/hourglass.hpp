@@ -13,7 +13,10 @@
 ///   Q_k4 += 2 mu (1 + nu) V/9 dq_k4/a_k^2
 ///   quadrilateral   Q_k += 2 mu V/(3 (1 - nu) a_k^2) dq_k
 ///   f_I = - sum_a (sum_k e_k Q_ka) gamma_aI.
-/// Bending of a brick is then exact, at every nu below 1/2. In plastic flow Q <- s (Q + dQ) with
+/// Bending of a brick is then exact, at every nu below 1/2. Stiffness as of Flanagan and Belytschko
+/// (1981, IJNME 17, 679), with 2 mu and never lambda + 2 mu, in the same place:
+///   Q_ka += n kappa mu (sum b:b)/V dq_ka,  n = 8; of a quadrilateral 6, as the cube of its edge.
+/// In plastic flow Q <- s (Q + dQ) with
 /// the s of the radial return: with elastic stiffness throughout it would create energy. The work
 /// - sum f_I . v_I dt is kept beside the internal energy.
 #pragma once
@@ -107,6 +110,25 @@ KRATER_FORCE_INLINE void add_hourglass_force(const HourglassFrame<Real, Dim>& h,
       for (int k = 0; k < Dim; ++k) along = fma(h.e[k][i], Q[modes * k + a], along);
       for (int I = 0; I < corner_nodes(Dim); ++I) f[I][i] = fnma(along, h.gamma[a][I], f[I][i]);
     }
+}
+
+/// The increment of Flanagan and Belytschko, `squares` = sum b:b.
+template <class Real, int Dim>
+KRATER_FORCE_INLINE void add_hourglass_stiffness(const Real (&dq)[hourglass_size(Dim)], Real mu,
+                                                 double kappa, Real squares, Real volume,
+                                                 Real (&Q)[hourglass_size(Dim)]) {
+  constexpr int n = Dim == 3 ? 8 : 6;
+  const Real modulus = n * kappa * mu * squares / volume;
+  for (int k = 0; k < hourglass_size(Dim); ++k) Q[k] = fma(modulus, dq[k], Q[k]);
+}
+
+/// Sum b:b over the corners.
+template <class Real, class Frame>
+KRATER_FORCE_INLINE Real squares_of(const ElementGeometry<Real, Frame>& e) {
+  Real sum = Real(0.0);
+  for (int I = 0; I < corner_nodes(Frame::dim); ++I)
+    for (int i = 0; i < Frame::dim; ++i) sum = fma(e.b[I][i], e.b[I][i], sum);
+  return sum;
 }
 
 /// Elastic increment of Q for the increments dq.

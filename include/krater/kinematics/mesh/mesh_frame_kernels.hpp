@@ -23,6 +23,8 @@ void choose(const ElementData& data, const Work& work) {
   };
   if (data.held.kind == Holding::viscous)
     with(Constant<Holding::viscous>{});
+  else if (data.held.kind == Holding::stiffness)
+    with(Constant<Holding::stiffness>{});
   else
     with(Constant<Holding::assumed_strain>{});
 }

@@ -112,6 +112,8 @@ KRATER_FORCE_INLINE void add_viscous_hourglass(const HourglassFrame<Pack, Frame:
 }
 
 using Holding = HourglassOptions::Kind;
+/// Stress Q that is kept, in place of dampers.
+constexpr bool keeps(Holding kind) { return kind != Holding::viscous; }
 
 /// Forces that hold the hourglass modes, at the corners as they are.
 template <class Frame, Holding Kind, ElementReference On>
@@ -121,7 +123,7 @@ KRATER_FORCE_INLINE void add_hourglass(const ElementData& d, const ElementGeomet
                                        HourglassFrame<Pack, Frame::dim>& h,
                                        Pack (&f)[corner_nodes(Frame::dim)][Frame::dim]) {
   constexpr int D = Frame::dim, N = corner_nodes(D), size = hourglass_size(D);
-  if constexpr (Kind == Holding::assumed_strain) {
+  if constexpr (keeps(Kind)) {
     Pack Q[size];
     for (int k = 0; k < size; ++k) Q[k] = load(d.hourglass + (size * g + k) * kLanes);
     if constexpr (On == ElementReference::current) {
@@ -208,7 +210,7 @@ void find_forces(const ElementData& d, int first, int last, ElementResult& out) 
 
 /// What is kept of a group between strain and the end of the stages.
 struct Kept {
-  static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16;
+  static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16, squares = 17;
 };
 
 /// The step's map of a group, its volume before, and which group it is, of the body and of those
@@ -297,7 +299,7 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
   const Mat3<Pack> dtL = mean_gradient(e, at.v, dt * per_volume);
   double* kept = w.kept + local * kKeptPacks * kLanes;
   Pack modes[hourglass_modes(D)][D], before[size];
-  if constexpr (Kind == Holding::assumed_strain) {
+  if constexpr (keeps(Kind)) {
     if constexpr (On == ElementReference::current) {
       Pack q[size];
       hourglass_rates<Pack, D>(h, at.v, q);
@@ -309,9 +311,12 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
     store(kept + Kept::volume * kLanes,
           On == ElementReference::current ? e.volume : r.start.volume);
     store(kept + Kept::plastic * kLanes, view.plastic(g));
+    if constexpr (Kind == Holding::stiffness)
+      store(kept + Kept::squares * kLanes,
+            squares_of(On == ElementReference::current ? e : r.start));
   }
   move_group<Frame, On>(d, w, view, {dtL, e.volume, dt, g, local}, share, at, r);
-  if constexpr (Kind == Holding::assumed_strain && On == ElementReference::initial) {
+  if constexpr (keeps(Kind) && On == ElementReference::initial) {
     Pack after[size];
     pulled_modes(h, r, at.x, modes, after);
     for (int k = 0; k < size; ++k) store(kept + (Kept::rates + k) * kLanes, after[k] - before[k]);
@@ -320,7 +325,7 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
 
 /// After the stages: Q <- s (Q + dQ), s = q/(q + 3 G d eps) of the radial return; nothing of failed
 /// matter.
-template <int Dim>
+template <int Dim, Holding Kind>
 KRATER_FORCE_INLINE void stress_hourglass(const ElementData& d, const double* kept,
                                           const ElementViews& view, Pack G, int g) {
   constexpr int size = hourglass_size(Dim);
@@ -332,9 +337,15 @@ KRATER_FORCE_INLINE void stress_hourglass(const ElementData& d, const double* ke
     Q[k] = load(record + k * kLanes);
   }
   for (int k = 0; k < Dim; ++k) h.per_a[k] = load(kept + (Kept::per_a + k) * kLanes);
-  const Pack c = view.sound_speed(g), K = view.density(g) * c * c;
-  const Pack nu = min(Pack(0.4999), fnma(Pack(2.0), G, 3.0 * K) / (2.0 * fma(Pack(3.0), K, G)));
-  add_hourglass_stress<Pack, Dim>(h, dq, G, nu, load(kept + Kept::volume * kLanes), Q);
+  const Pack volume = load(kept + Kept::volume * kLanes);
+  if constexpr (Kind == Holding::stiffness) {
+    add_hourglass_stiffness<Pack, Dim>(dq, G, d.held.stiffness, load(kept + Kept::squares * kLanes),
+                                       volume, Q);
+  } else {
+    const Pack c = view.sound_speed(g), K = view.density(g) * c * c;
+    const Pack nu = min(Pack(0.4999), fnma(Pack(2.0), G, 3.0 * K) / (2.0 * fma(Pack(3.0), K, G)));
+    add_hourglass_stress<Pack, Dim>(h, dq, G, nu, volume, Q);
+  }
   const Sym3<Pack> s = load_sym3(view.stress, g);
   const Pack q = sqrt(1.5 * contract(s, s)),
              flow = 3.0 * G * (view.plastic(g) - load(kept + Kept::plastic * kLanes));
@@ -376,8 +387,8 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
       const Pack G = c.local_shear < 0 ? Pack(0.0) : load(record + c.local_shear);
       store(d.remembered + kRemembered * kLanes * g, G);
       store(d.remembered + (kRemembered * g + 1) * kLanes, load(record + c.local_rate));
-      if constexpr (Kind == Holding::assumed_strain)
-        stress_hourglass<D>(d, w.kept + (g - from) * kKeptPacks * kLanes, view, G, g);
+      if constexpr (keeps(Kind))
+        stress_hourglass<D, Kind>(d, w.kept + (g - from) * kKeptPacks * kLanes, view, G, g);
       const Mask valid = first_lanes(d.count - kLanes * g);
       out.internal += sum(view.mass(g) * view.energy(g));
       out.hourglass += sum(select(valid, load(d.hourglass_energy + kLanes * g), Pack(0.0)));

@@ -13,8 +13,9 @@ struct Mesh;
 
 /// How the modes that one point does not see are held (kinematics/mesh/hourglass.hpp).
 struct HourglassOptions {
-  enum class Kind { assumed_strain, viscous } kind = Kind::assumed_strain;
-  double viscous = 0.1;  ///< c_h
+  enum class Kind { assumed_strain, stiffness, viscous } kind = Kind::assumed_strain;
+  double viscous = 0.1;     ///< c_h
+  double stiffness = 0.05;  ///< kappa
 };
 
 /// When an element is taken out (kinematics/mesh/erosion.hpp): any of these.

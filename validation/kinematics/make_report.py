@@ -1,0 +1,261 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same problems with points, with elements, and with both: bars, Taylor, plugging, Spear's plate.
+
+Writes README.md and pictures into its folder. `tools/validate kinematics` builds first.
+"""
+
+import os
+import sys
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
+from validate_impacts import Scale, discussion, histories, shapes, value  # noqa: E402
+from validate_runs import Study  # noqa: E402
+
+ESTIMATED_SECONDS = 700  # on two quiet cores
+
+COSTS = ["points, elements at the end", "steps", "unphysical energy %", "hourglass share %", "wall time s (1 thread)"]
+TAYLOR = {10: ("0.381 mm", 1), 20: ("0.1905 mm", 6), 40: ("0.09525 mm", 45)}
+PLUGGING = {10: ("0.8 mm", 5), 20: ("0.4 mm", 30)}
+SPEAR = {6: ("2.1167 mm", 1), 12: ("1.0583 mm", 4), 24: ("0.52917 mm", 25)}
+ROUND = ["frame=axisymmetric", "grid.box={min: [0, -60 mm], max: [125 mm, 40 mm]}",
+         "bodies.plate.shape={cylinder: {radius: 101.5 mm, height: 12.7 mm, base: [0, 0, -12.7 mm]}}",
+         "bodies.projectile.velocity=[0, -970 m/s]"]
+HELD = "  boundary: {y_min: sticky, y_max: sticky}"
+QUARTER = ["grid.box={min: [0, 0, -60 mm], max: [121.8 mm, 101.5 mm, 40 mm]}",
+           "grid.boundary.x_min=symmetry", "grid.boundary.y_min=symmetry"]
+BARS = """frame: plane_strain
+title: Two elastic bars
+grid: {{cell: {cell} mm, box: {{min: [0, -50 mm], max: [2 mm, 50 mm]}}, boundary: {{x_min: symmetry, x_max: symmetry}}}}
+time: {{end: 17.9 us, energy_error: off}}
+materials: {{metal: {{density: 8000, youngs_modulus: 200 GPa, poisson_ratio: 0.3, eos: linear, strength: elastic}}}}
+contact: {{friction: 0}}
+bodies:
+  striker: {{material: metal, shape: {{box: {{min: [0, {low} mm], max: [2 mm, {place} mm]}}}}, velocity: [0, 58.02 m/s]{a}}}
+  target: {{material: metal, shape: {{box: {{min: [0, {place} mm], max: [2 mm, {high} mm]}}}}{b}}}
+measures: {{target_velocity: {{kind: mean_velocity, body: target, axis: z}}}}
+"""
+
+
+WALL = """title: Bar on a wall, 1000 m/s (half of CCF 4.1)
+frame: 3d
+grid: {{cell: 0.5 mm, box: {{min: [-20 mm, -20 mm, 0], max: [20 mm, 20 mm, 60 mm]}}, boundary: {{z_min: {{wall: {{friction: 0}}}}}}}}
+time: {{end: {end} us, energy_error: off}}
+materials:
+  metal:
+    density: 7750
+    youngs_modulus: 310 GPa
+    poisson_ratio: 0.3
+    eos: linear
+    strength: {{von_mises: {{Y: 0.85 GPa, H: 0.55 GPa}}}}
+    viscosity: {{q_lin: 0.3, q_quad: 2.0}}
+    rate: {rate}
+bodies:
+  bar:
+    material: metal
+    shape: {{box: {{min: [-1.25 mm, -1.25 mm, 0], max: [1.25 mm, 1.25 mm, 50 mm]}}}}
+    velocity: [0, 0, -1000 m/s]
+    kinematics: {{lagrangian_mesh: {{element: {size} mm, hourglass: {held}, reference: {reference}}}}}
+output: {{frames: 5 us, history: 0.5 us}}
+"""
+
+
+def head(run, number):
+    """Widest nodes along the sides over widest along the diagonals, seen from the end."""
+    path = os.path.join(run.folder, "frames", f"{number:06d}.h5")
+    with h5py.File(path) as file:
+        x = file["bar/nodes/coordinates"][()][:, :2]
+    turned = x @ np.array([[1, 1], [1, -1]]) / np.sqrt(2)
+    return np.abs(x).max() / np.abs(turned).max()
+
+
+def wall_row(study, name, label, seconds, **how):
+    run = study.run_text("wall_" + label, WALL.format(**how), seconds)
+    if run is None:
+        return [name] + ["-"] * 7
+    audit = run.summary["audit"]
+    at = [f"{head(run, k):.2f}" for k in range(1, 1 + int(how["end"]) // 5)]
+    return [name, " / ".join(at), audit["folded_elements"], f"{audit['least_corner_jacobian']:.2f}",
+            f"{100 * audit['hourglass_share']:.1f}", f"{audit['energy_residual_fraction']:.0e}", run.summary["steps"],
+            f"{run.wall:.1f}"]
+
+
+def walls(study):
+    rows = []
+    for rate in ("truesdell", "jaumann", "green_naghdi"):
+        for held in ("assumed_strain", "viscous"):
+            for reference in ("current", "initial"):
+                rows.append(wall_row(study, f"{rate}, {held}, {reference}", f"{rate}_{held}_{reference}", 8, rate=rate, held=held,
+                                     reference=reference, size=0.5, end=10))
+    for held, reference in (("assumed_strain", "current"), ("viscous", "current"), ("assumed_strain", "initial")):
+        rows.append(wall_row(study, f"10 across: truesdell, {held}, {reference}", f"fine_{held}_{reference}", 60,
+                             rate="truesdell", held=held, reference=reference, size=0.25, end=5))
+    study.add("## CCF's bar on a wall, 1000 m/s",
+              "Half of CCF 4.1 by symmetry: 5 x 5 x 50 elements, to 10 µs; 10 x 10 x 100 to 5 µs. Sides over diagonals of the head: 0.71 a square as it "
+              "was, 1 a disc, 1.41 a square turned by 45 degrees.")
+    study.add_table(["rate, hourglass, reference", "sides/diagonals at 5 / 10 µs", "folded elements", "least corner", "hourglass share %",
+                     "residual", "steps", "wall time s (1 thread)"], rows)
+
+
+def elements(body, erode="", size="", reference="current"):
+    parts = [f"reference: {reference}", *([f"element: {size}"] if size else []),
+             *([f"failure: {{action: erode, when: {{{erode}}}}}"] if erode else [])]
+    return f"bodies.{body}.kinematics={{lagrangian_mesh: {{{', '.join(parts)}}}}}"
+
+
+def costs(run):
+    if run is None:
+        return ["failed"] + ["-"] * (len(COSTS) - 1)
+    share = run.summary["audit"].get("hourglass_share")
+    return [run.summary["points"], run.summary["steps"], f"{run.error:.2f}",
+            "-" if share is None else f"{100 * share:.1f}", f"{run.wall:.1f}"]
+
+
+def speed_at(run, time):
+    if run is None:
+        return "-"
+    history = run.history()
+    return f"{-np.interp(time, history['time'], history['projectile_velocity']):.0f}"
+
+
+def eroded(run):
+    if run is None or "eroded_elements" not in run.summary["audit"]:
+        return "-"
+    audit = run.summary["audit"]
+    causes = [f"{n} {name}" for name, n in audit.get("eroded_by", {}).items() if n]
+    return f"{audit['eroded_elements']}" + (f" ({', '.join(causes)})" if len(causes) > 1 else "")
+
+
+def bars(study):
+    here = ", kinematics: {lagrangian_mesh: {element: 1 mm}}"
+    rows = []
+    for a, b in (("elements", "elements"), ("elements", "points"), ("points", "elements"), ("points", "points")):
+        for cell in (0.5, 1):
+            taken, heat = [], []
+            for place in (0, 0.3, 0.5, 0.7):
+                text = BARS.format(cell=cell, place=place, low=place - 40, high=place + 40,
+                                   a=here if a == "elements" else "", b=here if b == "elements" else "")
+                run = study.run_text(f"bars_{a}_{b}_{cell}_{place}".replace(".", "_"), text, 1)
+                if run:
+                    taken.append(run.measure("target_velocity") / 58.02)
+                    heat.append(100 * run.audit("contact_heat") / run.summary["audit"]["initial_energy"])
+            rows.append([f"{a} on {b}, cell {cell} element", f"{min(taken):.3f} to {max(taken):.3f}",
+                         f"{min(heat):.2f} to {max(heat):.2f}"])
+    study.add("## Two elastic bars", "A bar of 40 elements of 1 mm meets its like end on at a hundredth of the wave's speed; the joint at "
+              "four places of its cell. Exact: the target takes 1 and nothing is lost; the dispersion of the elements alone leaves 0.99.")
+    study.add_table(["bars", "target takes", "contact takes of the energy %"], rows)
+
+
+def taylor(study):
+    study.use("inputs/taylor_copper.yaml")
+    rows, finest = [], {}
+    for n, (cell, seconds) in TAYLOR.items():
+        for name, more in (("points", []), ("elements", [elements("rod")]),
+                           ("elements, initial reference", [elements("rod", reference="initial")])):
+            run = study.run(f"taylor_{name.split(',')[0]}_{'initial' if 'initial' in name else 'current'}_{n}",
+                            [f"grid.cell={cell}", *more], seconds)
+            rows.append([f"{name}, {n} on the radius", value(run, "final_length", 1e3, 3), value(run, "w_diameter", 1e3, 3),
+                         value(run, "foot_diameter", 1e3, 3), value(run, "foot_contact_diameter", 1e3, 3), *costs(run)])
+            finest[name] = run
+    study.add("## Taylor impact, copper at 190 m/s",
+              "[inputs/taylor_copper.yaml](../../inputs/taylor_copper.yaml), axisymmetric, frictionless anvil, one thread.")
+    study.add_table(["run", "length mm", "W mm", "foot mm", "lowest plane mm", *COSTS], rows)
+    shapes(study, finest, (20e-6, 80e-6), "taylor.png", lambda run: Scale(run, "plastic_strain", 2.0), [-8, 8, 0, 26],
+           "Plastic strain, 40 on the radius")
+    study.add("![taylor](taylor.png)")
+
+
+def plugging(study):
+    study.use("inputs/ccf_plugging.yaml")
+    erode = "failed: true, jacobian: 0.05"
+    rows, finest = [], {}
+    for n, (cell, seconds) in PLUGGING.items():
+        for name, more in (("points", []), ("elements", [elements("plate", erode), elements("projectile")]),
+                           ("projectile of elements, plate of points", [elements("projectile")])):
+            run = study.run(f"plugging_{name.split()[0]}_{n}", [f"grid.cell={cell}", *more], seconds)
+            rows.append([f"{name}, {n} through the plate", value(run, "residual_velocity", -1),
+                         value(run, "hole", 1e3, 2), value(run, "mass_lost", 1e3, 2), eroded(run), *costs(run)])
+            finest[name] = run
+    study.add("## Plugging of a Weldox plate, 298 m/s",
+              "[inputs/ccf_plugging.yaml](../../inputs/ccf_plugging.yaml): experiment 241.4 m/s; with points 236 and 238 m/s at 40 and 80 cells "
+              "(../ccf_plugging). Elements erode when they fail, or when a corner has collapsed.")
+    study.add_table(["run", "residual velocity m/s", "hole mm", "failed mass g", "eroded", *COSTS], rows)
+    shapes(study, finest, (20e-6, 60e-6, 100e-6), "plugging.png", lambda run: Scale(run, "plastic_strain", 1.0),
+           [-30, 30, -35, 60], "Plastic strain, 20 through the plate")
+    study.add("![plugging](plugging.png)")
+
+
+def spear(study):
+    study.use("inputs/spear_plate.yaml")
+    rows, drawn = [], {}
+
+    def add(name, label, settings, seconds, without=(HELD,)):
+        run = study.run(f"spear_{label}", settings, seconds, without=list(without))
+        rows.append([name, speed_at(run, 12e-6), speed_at(run, 60e-6), eroded(run), *costs(run)])
+        return run
+
+    def both(erode, size=""):
+        return [elements("plate", erode, size), elements("projectile", erode, size)]
+
+    kept = "plastic_strain: 1.0, jacobian: 0.05"
+    for n, (cell, seconds) in SPEAR.items():
+        here = [f"grid.cell={cell}", *ROUND]
+        models = {"points": ([], "points"), "elements": (both(kept), "elements"),
+                  "projectile of elements, plate of points": ([elements("projectile", kept)], "mixed"),
+                  "points removed when they fail": (["materials.aluminium.failure.action=remove"], "removed"),
+                  "elements eroded when they fail": (both("failed: true, jacobian: 0.05"), "failed")}
+        for name, (settings, label) in models.items():
+            run = add(f"{name}, {n} through the plate", f"{label}_{n}", [*here, *settings], seconds)
+            if n == 12:
+                drawn[name] = run
+    study.add("## A 6061-T6 cylinder on a plate, 970 m/s",
+              "[inputs/spear_plate.yaml](../../inputs/spear_plate.yaml) in axial symmetry (free round plate). Velocity of the whole projectile at "
+              "12 µs, when the paper reads it and the projectile is still in the plate, and at 60 µs. Elements erode at a plastic "
+              "strain of 1, as the paper's, or when a corner has collapsed (0.05).")
+    titles = ["run", "12 µs m/s", "60 µs m/s", "eroded", *COSTS]
+    study.add_table(titles, rows)
+    shapes(study, drawn, (12e-6, 36e-6, 60e-6), "spear.png", lambda run: Scale(run, "plastic_strain", 1.0),
+           [-35, 35, -45, 28], "Plastic strain, 12 through the plate")
+    histories(study, drawn, {"projectile_velocity": "whole projectile"}, "spear_velocities.png", "velocity [m/s]", -1.0)
+    study.add("![spear](spear.png)", "![velocities](spear_velocities.png)")
+
+    rows.clear()
+    cell, seconds = SPEAR[12]
+    here = [f"grid.cell={cell}", *ROUND]
+    for mu in (0.1, 0.2, 0.3):
+        add(f"friction {mu}", f"friction_{mu}".replace(".", "_"), [*here, *both(kept), f"contact.friction={mu}"], seconds)
+    for strain in (0.3, 0.5, 2.0):
+        add(f"erosion at {strain}", f"strain_{strain}".replace(".", "_"),
+            [*here, *both(f"plastic_strain: {strain}, jacobian: 0.05")], seconds)
+    add("erosion of collapsed elements only", "collapsed", [*here, *both("jacobian: 0.05")], seconds)
+    add("eroded at a corner of 0.2", "corner", [*here, *both("plastic_strain: 1.0, jacobian: 0.2")], seconds)
+    add("no damage law", "no_damage", [*here, *both(kept)], seconds, (HELD, "    damage: card"))
+    study.add("What moves it, elements at 12 through the plate, friction 0 and erosion at 1 where not said:")
+    study.add_table(titles, rows)
+
+    rows.clear()
+    mesh = [elements("plate", kept, "2.03 mm"), elements("projectile", kept, "0.88 mm")]
+    add("elements, full", "full", [*mesh, "output.frames=12 us"], 60, ())
+    add("elements, a quarter", "quarter", [*mesh, *QUARTER, "output.frames=12 us"], 15, ())
+    study.add("In 3D, the paper's sizes: 2.03 mm in the plate (6 through it), 0.88 mm in the projectile, an O-grid; plate held at two edges.")
+    study.add_table(titles, rows)
+
+
+def main():
+    study = Study(__file__, "inputs/taylor_copper.yaml", ESTIMATED_SECONDS, __doc__)
+    study.add("One set of materials, one contact law, one account of energy: what does the kinematics alone change, and what does it cost? "
+              "Points (`kinematics: mpm`), elements (`lagrangian_mesh`), and both in one scene. One thread everywhere.")
+    bars(study)
+    walls(study)
+    taylor(study)
+    plugging(study)
+    spear(study)
+    discussion(study)
+    study.write("Kinematics: points, elements, and both")
+
+
+if __name__ == "__main__":
+    main()
