@@ -213,7 +213,7 @@ TEST_SUITE("verification") {
   TEST_CASE("mesh contact: rigid bodies, driven and free, strike elements") {
     constexpr double kDensity = 8000, kSpeed = 200, kTime = 5e-6, kWidth = 2e-3;
     const double wave = std::sqrt(200e9 * 0.7 / (1.3 * 0.4) / kDensity);
-    for (const double density : {8e3, 8e7})
+    for (const double density : {8.0, 8e3, 8e7})
       for (const bool is_free : {true, false}) {
         CAPTURE(density);
         CAPTURE(is_free);
@@ -232,10 +232,10 @@ TEST_SUITE("verification") {
         while (!run.sim->done()) run.sim->step(run.sim->scene().time.end);
         const Audit& audit = run.sim->audit();
         const Totals bar = run.sim->totals(1), all = run.sim->totals();
-        if (density > 1e6)
+        if (density > 1e6 || !is_free)
           CHECK(bar.momentum[1] ==
                 doctest::Approx(kDensity * wave * kSpeed * kWidth * kTime).epsilon(0.06));
-        else if (is_free)  // its momentum decays by exp(-rho c A t/m)
+        else  // its momentum decays by exp(-rho c A t/m)
           CHECK(std::abs(punch.twist().velocity[1] - kSpeed * std::exp(-wave * kTime / 5e-3)) <
                 0.01 * kSpeed);
         CHECK(std::abs(audit.residual(all.kinetic, all.internal)) <
@@ -243,6 +243,41 @@ TEST_SUITE("verification") {
         CHECK(std::abs(all.momentum[1] - p - audit.external_impulse[1]) <
               1e-12 * std::max(p, audit.external_impulse[1]));
         CHECK(audit.contact_heat >= 0);
+        CHECK(std::abs(punch.twist().velocity[1]) <= kSpeed * (1 + 1e-12));
+      }
+  }
+
+  // A narrow block on a wide one, whole and cut in the middle. Round-off grows where pushes come
+  // and go, so it is judged after a few steps; the faults that were found were 1e-6 to 1e-3 then.
+  TEST_CASE("mesh contact: half a scene at a plane of symmetry is half of the whole") {
+    const auto scene = [](bool half, double friction, const std::string& first,
+                          const std::string& second) {
+      const std::string low = half ? "0" : "-3 mm", wide = half ? "0" : "-8 mm";
+      return "frame: plane_strain\ngrid: {cell: 1 mm, box: {min: [" +
+             std::string{half ? "0" : "-12 mm"} +
+             ", -10 mm], max: [12 mm, 12 mm]}, boundary: {x_min: " + (half ? "symmetry" : "open") +
+             "}}\ntime: {end: 8 us, energy_error: off}\nmaterials: {metal: " + kMetal +
+             "}\ncontact: {friction: " + std::to_string(friction) +
+             "}\nbodies:\n  block: {material: metal, velocity: [0, -100 m/s], shape: {box: {min: "
+             "[" +
+             low + ", 0], max: [3 mm, 5 mm]}}, " + first +
+             "}\n  base: {material: metal, shape: {box: {min: [" + wide +
+             ", -6 mm], max: [8 mm, 0]}}, " + second + "}\n";
+    };
+    for (const auto& [first, second] :
+         {std::pair{mesh_of(1), mesh_of(0.5)}, {mesh_of(1), kPoints}, {kPoints, mesh_of(1)}})
+      for (const double friction : {0.0, 0.2}) {
+        CAPTURE(first);
+        CAPTURE(second);
+        CAPTURE(friction);
+        Run whole = start_text(scene(false, friction, first, second)),
+            half = start_text(scene(true, friction, first, second));
+        for (Run* run : {&whole, &half}) run_steps(*run, 5);
+        REQUIRE(whole.sim->audit().contact_heat > 0);
+        const Totals all = whole.sim->totals(1), part = half.sim->totals(1);
+        CHECK(2 * part.momentum[1] == doctest::Approx(all.momentum[1]).epsilon(1e-7));
+        CHECK(2 * half.sim->audit().contact_heat ==
+              doctest::Approx(whole.sim->audit().contact_heat).epsilon(1e-7));
       }
   }
 

@@ -101,7 +101,8 @@ void MeshContact::sample(const MeshNodes& nodes, std::size_t body, const Face& f
   for (std::size_t I = 0; I < corners; ++I) x[I] = place_of(nodes, face[I]);
   const auto count = [&](const Triple& along, const Triple& beside) {
     const double length = std::sqrt(std::max(dot(along, along), dot(beside, beside)));
-    return std::clamp(static_cast<int>(std::ceil(length / cell_)), 1, 64);
+    // An edge of one cell has one sample, however it was rounded.
+    return std::clamp(static_cast<int>(std::ceil(length / cell_ - 1e-6)), 1, 64);
   };
   const int ns =
       corners == 1 ? 1 : count(minus(x[1], x[0]), corners == 2 ? Triple{} : minus(x[2], x[3]));

@@ -37,6 +37,7 @@ void MeshContact::find_faces() {
 }
 
 void MeshContact::push(double dt) {
+  parts_.mesh.hold_nodes();
   bodies_ = parts_.mesh.nodes();
   find_faces();
   carriers_.clear();
@@ -159,6 +160,9 @@ void MeshContact::pass(double dt) {
       add_to(side.momentum, S, reflected(p, flips));
     });
   }
+  for (Meeting& m : meetings_)  // the image has the opposite across the plane
+    for (std::size_t a = 0; a < 3; ++a)
+      if (m.held[a]) m.side[0].momentum[a] = m.side[1].momentum[a] = 0;
   foretell(dt);
   for (Meeting& m : meetings_) exchange(m, dt);
   hand_over();

@@ -65,7 +65,7 @@ void MeshContact::find_meetings() {
         m.side[0].body = a;
         m.side[1].body = b;
         m.normal = minus(looks(A), looks(B));
-        if (B.here && find_normal(number, m.normal)) meetings_.push_back(m);
+        if (B.here && find_normal(m)) meetings_.push_back(m);
       }
       if (!of_points_.empty()) meet_points(number, a, A);
     }
@@ -74,13 +74,16 @@ void MeshContact::find_meetings() {
 }
 
 /// Of length 1, without a part across a plane of symmetry that the node lies on.
-bool MeshContact::find_normal(std::int32_t node, Triple& n) const {
-  const Index& index = places_[static_cast<std::size_t>(node)];
+bool MeshContact::find_normal(Meeting& m) const {
+  Triple& n = m.normal;
+  const Index& index = places_[static_cast<std::size_t>(m.node)];
   for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
     for (std::size_t side = 0; side < 2; ++side)
       if (conditions_[a][side].kind == BoundaryKind::symmetry &&
-          index[a] == (side == 0 ? 1 : geometry_.cells[a] + 1))
+          index[a] == (side == 0 ? 1 : geometry_.cells[a] + 1)) {
         n[a] = 0;
+        m.held[a] = true;
+      }
   const double length = length_of(n);
   if (!(length > kNoNormal)) return false;
   for (double& component : n) component /= length;
@@ -109,7 +112,7 @@ void MeshContact::meet_points(std::int32_t node, std::size_t body, const Presenc
       const double flat = flatness_of_points(index, other, inwards);
       add_to(m.normal, fortieth(flat), inwards);
     }
-    if (find_normal(node, m.normal)) meetings_.push_back(m);
+    if (find_normal(m)) meetings_.push_back(m);
   }
 }
 

@@ -181,6 +181,12 @@ std::vector<MeshNodes> MeshStep::nodes() {
   return out;
 }
 
+void MeshStep::hold_nodes() {
+  over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums& sums) {
+    hold_planes(b, first, last, sums);
+  });
+}
+
 void MeshStep::meet(double dt) {
   over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums& sums) {
     hold_planes(b, first, last, sums);

@@ -107,6 +107,7 @@ class MeshContact final : public Encounter {
     double gap = 0;
     Triple impulse{};  ///< on the first, of the step
     bool rigid = false;
+    std::array<bool, 3> held{};  ///< axes across which a plane of symmetry mirrors the node
   };
   /// A rigid body in a pass.
   struct RigidPart {
@@ -129,7 +130,7 @@ class MeshContact final : public Encounter {
   Reached inside(Index& index) const;
   void find_meetings();
   void meet_points(std::int32_t node, std::size_t body, const Presence& presence);
-  bool find_normal(std::int32_t node, Triple& n) const;
+  bool find_normal(Meeting& meeting) const;
   void weigh();
   double reach_of_points(const Meeting& meeting, const Triple& face) const;
   Triple gradient_of_points(const Index& index, int body) const;

@@ -98,6 +98,8 @@ class MeshStep final : public Kinematics {
 
   const std::vector<std::array<std::int32_t, 2>>& surface(int s) const;  ///< edges, by nodes
   std::vector<MeshNodes> nodes();  ///< of all bodies, in the order of the sets
+  /// Planes of symmetry hold their nodes against the forces so far; meet() does it for the rest.
+  void hold_nodes();
   /// Faces that others may touch (exposed_faces()): not those that lie on a plane of symmetry. A
   /// node without elements is one of one corner.
   std::vector<std::array<std::int32_t, 4>> meeting_faces(int s) const;
