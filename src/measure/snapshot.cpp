@@ -237,13 +237,15 @@ void add_elements(const Simulation& sim, Json& j) {
 }
 
 void add_particles(const Simulation& sim, std::vector<Quantity>& row) {
-  if (sim.sph() != nullptr)
-    add(row, "uncorrected_particles", "1", static_cast<double>(sim.sph()->flat_count()));
+  if (sim.sph() == nullptr) return;
+  add(row, "uncorrected_particles", "1", static_cast<double>(sim.sph()->flat_count()));
+  add(row, "stabilisation_heat", "J", sim.audit().stabilisation);
 }
 
 void add_particles(const Simulation& sim, Json& j) {
-  if (sim.sph() != nullptr)
-    j["uncorrected_particles"] = Json::of(static_cast<std::int64_t>(sim.sph()->flat_count()));
+  if (sim.sph() == nullptr) return;
+  j["uncorrected_particles"] = Json::of(static_cast<std::int64_t>(sim.sph()->flat_count()));
+  j["stabilisation_heat"] = Json::of(sim.audit().stabilisation);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("sph: without correction the angular momentum is not exact, all else is") {
-    Run run = start_text(block("3d", "correction: none"));
+    Run run = start_text(block("3d", "zero_energy: 0, correction: none"));
     shake(run, 7);
     const Balance b = balance(run);
     CHECK(std::abs(b.power - b.work) < 1e-13 * b.sum);
@@ -159,6 +159,25 @@ TEST_SUITE("verification") {
                                : a * d - 0.02 * dt * dt;
         for (const double rho : column(run, field::Density::info))
           CHECK(rho == doctest::Approx(1 / det).epsilon(1e-13));
+      }
+  }
+
+  TEST_CASE("sph: what holds zero-energy modes does not see a linear field, and keeps momenta") {
+    for (const std::string& frame : kFrames)
+      for (const std::string reference : {"current", "initial"}) {
+        CAPTURE(frame);
+        CAPTURE(reference);
+        const bool space = frame == "3d";
+        Run linear = start_text(block(frame, "zero_energy: 1, reference: " + reference,
+                                      space ? "[\"0.3*x + 0.1*y - z\", \"x - 0.1*y\", \"0.1*y\"]"
+                                            : "[\"0.3*x + 0.1*z\", \"0.2*x - 0.1*z\"]"));
+        CHECK(balance(linear).forces < 1e-13);
+        Run shaken = start_text(block(frame, "zero_energy: 1, reference: " + reference));
+        shake(shaken, 3);
+        const Balance with = balance(shaken);
+        CHECK(with.force < 1e-14 * with.forces);
+        CHECK(with.moment < 1e-14 * with.forces);
+        CHECK(with.power < with.work);  // it takes from motion
       }
   }
 
@@ -249,10 +268,13 @@ TEST_SUITE("verification") {
           Run run = start_text(
               "frame: plane_strain\ngrid: {cell: 0.2, box: {min: [0, 0], max: [0.4, 2]}, boundary: "
               "{x_min: symmetry, x_max: symmetry, z_min: symmetry, z_max: symmetry}}\ntime: {end: "
-              "100}\nmaterials: {matter: {" + kElastic +
-                  "}}\nbodies: {bar: {material: matter, shape: {box: {min: [0, -1, 0], max: [0.4, 1, "
-                  "2]}}, kinematics: {sph: {kernel: " + kernel + ", reference: " + reference +
-                  "}}, velocity: [0, \"1e-7*sin(" + std::to_string(k) + "*z)\"]}}\n",
+              "100}\nmaterials: {matter: {" +
+                  kElastic +
+                  "}}\nbodies: {bar: {material: matter, shape: {box: {min: [0, -1, 0], max: [0.4, "
+                  "1, "
+                  "2]}}, kinematics: {sph: {zero_energy: 0, kernel: " +
+                  kernel + ", reference: " + reference + "}}, velocity: [0, \"1e-7*sin(" +
+                  std::to_string(k) + "*z)\"]}}\n",
               {"time.first_step=" + step, "time.max_step=" + step});
           const auto start = column(run, field::Position::info, 1);
           const auto amplitude = [&] {

@@ -289,12 +289,17 @@ bool Neighbours::may_meet(const CellPair& pair, const std::vector<Reach>& reach)
 }
 
 bool Neighbours::stale(const double* motion) const {
-  for (std::size_t i = 0; i < count_ && !planes_.empty(); ++i)
-    for (const Plane& plane : planes_) {  // what had no image and may need one
-      const double now = plane.inwards * (motion[kMotion * i + plane.axis] - plane.at),
-                   then = plane.inwards * (places_[3 * i + plane.axis] - plane.at);
-      if (now < support_ && !(then < radius_)) return true;
-    }
+  for (const Plane& plane : planes_) {  // what had no image and may need one
+    const auto depth = [&plane](const double* x) {
+      return plane.inwards * (x[plane.axis] - plane.at);
+    };
+    double across = 0;
+    for (std::size_t i = 0; i < count_; ++i) across = std::min(across, depth(motion + kMotion * i));
+    for (std::size_t i = 0; i < count_; ++i)
+      if (depth(motion + kMotion * i) + across < support_ &&
+          !(depth(places_.data() + 3 * i) < radius_))
+        return true;
+  }
   const std::vector<Reach> reach = reaches(motion);
   for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) {
     double low = INFINITY, high = -INFINITY;
@@ -328,18 +333,30 @@ void Neighbours::reflect_motion(double* motion) const {
 }
 
 void Neighbours::reflect_load(double* load) const {
-  const auto record = static_cast<std::size_t>(load_record(dim_)),
-             dim = static_cast<std::size_t>(dim_);
+  constexpr std::size_t kAxes = 3;
+  const LoadRecord at = load_record(dim_);
   in_chunks(images_.size(), kChunkItems, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t m = first; m < last; ++m) {
       const Image& image = images_[m];
-      const double* from = load + record * static_cast<std::size_t>(image.of);
-      double* to = load + record * (first_image_ + m);
-      for (std::size_t a = 0; a < 3; ++a) to[a] = image.sign[a] * from[a] + image.offset[a];
+      const double* from = load + at.size * image.of;
+      double* to = load + static_cast<std::size_t>(at.size) * (first_image_ + m);
+      const auto place = [&](int slot, std::size_t a) {
+        to[slot] = image.sign[a] * from[slot] + image.offset[a];
+      };
+      for (std::size_t a = 0; a < kAxes; ++a) place(static_cast<int>(a), a);
       to[3] = from[3];
-      for (std::size_t a = 0; a < dim; ++a)
-        for (std::size_t b = 0; b < dim; ++b)
-          to[4 + dim * a + b] = image.sign[a] * image.sign[b] * from[4 + dim * a + b];
+      to[at.Z] = from[at.Z];
+      for (int a = 0; a < dim_; ++a) {
+        const auto sign = [&image](int axis) { return image.sign[static_cast<std::size_t>(axis)]; };
+        place(at.now + a, static_cast<std::size_t>(a));
+        to[at.v + a] = sign(a) * from[at.v + a];
+        for (int b = 0; b < dim_; ++b)
+          to[at.A + dim_ * a + b] = sign(a) * sign(b) * from[at.A + dim_ * a + b];
+        for (int b = 0; b <= a; ++b) {
+          const int D = at.D + (a == b ? a : dim_ == 3 ? 6 - a - b : 2);
+          to[D] = sign(a) * sign(b) * from[D];
+        }
+      }
     }
   });
 }

@@ -17,7 +17,8 @@ struct SphStep::Particles {
   PointStore points;
   std::unique_ptr<SphKernels> kernels;
   Neighbours neighbours;
-  AlignedBuffer motion, load, correction, power, force, remembered, reference, deformation, changes;
+  AlignedBuffer motion, load, correction, power, force, held, remembered, reference, deformation,
+      changes;
   std::vector<std::vector<double>> standoff;  ///< of every pushing side, of every particle [m]
   std::size_t flat = 0;
 

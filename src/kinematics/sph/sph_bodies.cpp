@@ -56,6 +56,7 @@ void make_room(int dim, SphStep::Particles& body) {
   body.correction.reserve(6 * groups * kLanes);
   body.power.reserve(groups * kLanes);
   body.force.reserve(3 * groups * kLanes);
+  body.held.reserve(4 * groups * kLanes);
   body.remembered.reserve(2 * groups * kLanes);
   body.changes.reserve(kSphChange * groups * kLanes + kLanes);  // read eight at a time
   body.reference.reserve(3 * groups * kLanes);

@@ -18,6 +18,7 @@ SphData SphStep::data(Particles& b) const {
           .correction = b.correction.data(),
           .power = b.power.data(),
           .force = b.force.data(),
+          .held = b.held.data(),
           .remembered = b.remembered.data(),
           .reference = b.reference.data(),
           .deformation = b.deformation.data(),
@@ -29,6 +30,7 @@ SphData SphStep::data(Particles& b) const {
           .density = b.made_of.density,
           .q_lin = b.made_of.q_lin,
           .q_quad = b.made_of.q_quad,
+          .zero_energy = b.made_of.options.zero_energy,
           .corrects = b.made_of.options.correction == SphCorrection::linear};
 }
 
@@ -98,6 +100,7 @@ void SphStep::book(const std::vector<SphResult>& results, const Standing& others
   for (std::size_t c = 0; c < results.size(); ++c) {
     const SphResult& r = results[c];
     audit_.internal += r.internal;
+    audit_.stabilisation += r.held;
     audit_.book_events(r.ledger);
     if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
     audit_.unfelt += r.internal;
@@ -115,7 +118,7 @@ void SphStep::renew_lists() {
     if (!b->fixed() && b->neighbours.stale(b->motion.data()))
       b->neighbours.make(b->motion.data(), b->points.count());
     b->motion.reserve(kMotion * b->neighbours.records());
-    b->load.reserve(static_cast<std::size_t>(load_record(dim_)) * b->neighbours.records());
+    b->load.reserve(static_cast<std::size_t>(load_record(dim_).size) * b->neighbours.records());
   }
 }
 
@@ -263,8 +266,8 @@ std::size_t SphStep::memory() const {
   std::size_t bytes = 0;
   for (const auto& b : bodies_) {
     for (const AlignedBuffer* buffer :
-         {&b->motion, &b->load, &b->correction, &b->power, &b->force, &b->remembered, &b->reference,
-          &b->deformation, &b->changes})
+         {&b->motion, &b->load, &b->correction, &b->power, &b->force, &b->held, &b->remembered,
+          &b->reference, &b->deformation, &b->changes})
       bytes += 8 * buffer->size();
     bytes += 8 * b->points.capacity() + b->neighbours.memory();
   }

@@ -34,6 +34,9 @@ Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& r
       {"smoothing", "1", Range::positive, out.smoothing, "smoothing length h over the spacing"});
   if (out.smoothing < kLeastSmoothing || out.smoothing > kMostSmoothing)
     block.fail("smoothing must be from 1 (26 neighbours in 3d) to 2 (250)");
+  out.zero_energy =
+      block.number({"zero_energy", "1", Range::fraction, out.zero_energy,
+                    "viscosity of pairs that holds modes the gradients do not see; 0: none"});
   out.kernel = block.choice<SphKernel>(
       "kernel",
       {{"cubic_spline", SphKernel::cubic_spline}, {"wendland_c2", SphKernel::wendland_c2}},

@@ -17,6 +17,7 @@ struct SphOptions {
   SphKernel kernel = SphKernel::cubic_spline;
   SphCorrection correction = SphCorrection::linear;
   SphReference reference = SphReference::current;
+  double zero_energy = 0.1;  ///< coefficient of what holds modes that gradients do not see, 0: none
   double length() const { return smoothing * spacing; }  ///< h [m]
 };
 

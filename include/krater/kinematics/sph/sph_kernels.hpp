@@ -6,9 +6,11 @@
 /// (points/store.hpp). What is gathered from neighbours lies in records of its own, one after the
 /// other, particles first and then their mirror images:
 ///   motion  [x y z  V  vx vy vz  0]     places and volumes of the reference
-///   load    [x y z  V  A]               A = S K, 4 or 9 components (row-major): 8 or 16 doubles
+///   load    [x y z V | A | v | D | Z | x now]   A = S K, 4 or 9 components (row-major),
+///           D = sym L, Z = rho c, x now where the reference is another: LoadRecord
 /// and what a group has beside its columns in arrays of `groups` records:
 ///   correction [6][8]   power [8]   force [3][8]   remembered [2][8]: G and tr D of the last step
+///   held [4][8]: of the forces, what holds zero-energy modes, and what it takes from motion [W]
 ///   reference [3][8]: places at the start      deformation [9][8]: F from there
 #include <cstdint>
 
@@ -33,22 +35,29 @@ struct NeighbourRows {
 };
 
 inline constexpr int kMotion = 8;  ///< doubles of a record of motion
-inline constexpr int kMostLoad = 16;
-constexpr int load_record(int dimension) { return dimension == 3 ? 16 : 8; }
+
+/// Where things are in a record of load.
+struct LoadRecord {
+  int A, v, D, Z, now, size;
+};
+constexpr LoadRecord load_record(int dim) {
+  const int v = 4 + dim * dim, D = v + dim, Z = D + dim * (dim + 1) / 2, now = Z + 1;
+  return {4, v, D, Z, now, (now + dim + 7) / 8 * 8};
+}
 
 struct SphData {
   double* particles;
   int count, groups;
   const NeighbourRows* neighbours;
   double *motion, *load;
-  double *correction, *power, *force, *remembered, *reference, *deformation;
+  double *correction, *power, *force, *held, *remembered, *reference, *deformation;
   const double* changes;  ///< of velocity in the step and heat per mass, 4 for each particle
   SphColumns columns;
   const Stage* const* stages;
   int stage_count;
   double h;        ///< [m]
   double density;  ///< at the start
-  double q_lin, q_quad;
+  double q_lin, q_quad, zero_energy;
   bool corrects;
 };
 
@@ -61,6 +70,7 @@ inline constexpr int kSphGroups = 8;  ///< groups that a stage works on at once
 
 /// What a sweep over some groups leaves behind; combined in their order.
 struct SphResult {
+  double held = 0;                 ///< work against zero-energy modes [J]
   double internal = 0;             ///< [J]
   double max_rate = 0;             ///< 1/dt at CFL 1 [1/s]
   int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the particle

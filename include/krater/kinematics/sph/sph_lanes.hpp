@@ -107,6 +107,20 @@ KRATER_FORCE_INLINE void store_records(double* to, int stride, Pack (&r)[8]) {
   for (int l = 0; l < kLanes; ++l) store(to + stride * l, r[l]);
 }
 
+/// Records of load by components.
+template <int Lines>
+struct Loads {
+  Pack r[Lines][8];
+  KRATER_FORCE_INLINE Pack operator[](int place) const { return r[place / 8][place % 8]; }
+};
+inline constexpr std::int32_t kOwnLanes[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
+template <int Lines>
+KRATER_FORCE_INLINE void gather_loads(const double* from, int stride, const std::int32_t* lanes,
+                                      Loads<Lines>& out) {
+  for (int line = 0; line < Lines; ++line)
+    gather_records(from + 8 * line, stride, lanes, out.r[line]);
+}
+
 /// A group's own records of motion.
 template <int Dim>
 struct Own {

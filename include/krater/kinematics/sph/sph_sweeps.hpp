@@ -7,6 +7,11 @@
 ///   A_i = S_i K_i,   f_i = sum_j V_i V_j (A_i + A_j) grad W_ij
 ///   W_i = dt V sigma : (L(v-) + L(v+))/2,   sum_i W_i = - dt sum_i f_i . (v- + v+)/2 to round-off
 ///   e <- e + W/m + heat of sides,   f = I + dt L(v+), rho by det f,   x <- x + dt v+
+/// What gradients do not see is held by a viscosity of pairs along their line, of no effect on a
+/// linear field of velocity (after Ganzenmueller 2015, with dampers for his springs):
+///   h_i = z/(2h) sum_j V_i V_j (W'/r) (Z_i + Z_j) [v_ij.x_ij - x_ij.(D_i + D_j) x_ij/2] x_ij
+/// with x_ij the places now, all of v-, Z = rho c. Its work heats both alike: half of - h_ij.v_ij-,
+/// and - h_i.dv_i/2 of each, in sum - h.(v- + v+)/2.
 /// A pair gives both its particles the same force to the last bit, by its sign. e is that of
 /// t_{n+1/2} (BatchData::energy_share 0), as of elements (kinematics/mesh/mesh_sweeps.hpp).
 #pragma once
@@ -32,10 +37,13 @@ class Sweeps final : public SphKernels {
   template <bool Moments>
   static void sum_gradient(const SphData& d, const Own<Dim>& own, int g, Axes<Dim>& N,
                            SymAxes<Pack, Dim>& M);
+  static constexpr LoadRecord at = load_record(Dim);
+  template <bool Held>
+  static void sum_forces(const SphData& d, int first, int last);
   static Mat3<Pack> gradient(const SphData& d, const Axes<Dim>& N, const SymAxes<Pack, Dim>& K,
                              int g);
   static void strain_group(const SphData& d, const SphScratch& w, const SphViews& view, double dt,
-                           int g, int local);
+                           int g, int local, SphResult& out);
 };
 
 /// Records of motion from the columns.
@@ -161,56 +169,87 @@ void Sweeps<Dim, Kind, Reference>::correct(const SphData& d, int first, int last
     }
     for (int k = 0; k < K.size; ++k) store(d.correction + (6 * g + k) * kLanes, K.c[k]);
     const Sym3<Pack> sigma = whole_stress(view, g);
-    store(d.power + kLanes * g, contract(sigma, sym(gradient(d, N, K, g))));
+    const Mat3<Pack> L = gradient(d, N, K, g);
+    store(d.power + kLanes * g, contract(sigma, sym(L)));
     Mat3<Pack> S = as_matrix(sigma);
     if constexpr (fixed)
       S = (d.density / view.density(g)) * (S * transpose(inverse(load_deformation(d, g))));
     const Axes<Dim> A = times(along_grid<Dim>(S), K);
-    constexpr int record = load_record(Dim);
-    double* to = d.load + record * kLanes * g;
-    Pack r[2][8];
-    for (auto& line : r)
-      for (Pack& p : line) p = 0.0;
-    for (int a = 0; a < Dim; ++a) r[0][a] = own.x[a];
-    r[0][3] = own.volume;
-    for (int k = 0; k < Dim * Dim; ++k) r[(4 + k) / 8][(4 + k) % 8] = A.c[k / Dim][k % Dim];
-    for (int line = 0; line < record / 8; ++line) store_records(to + 8 * line, record, r[line]);
+    Pack r[at.size / 8][8];
+    const auto put = [&r](int place, Pack value) { r[place / 8][place % 8] = value; };
+    for (int k = 0; k < at.size; ++k) put(k, Pack(0.0));
+    const Axes<Dim> rates = along_grid<Dim>(L);
+    for (int a = 0; a < Dim; ++a) {
+      put(a, own.x[a]);
+      put(at.v + a, own.v[a]);
+      put(at.now + a, view.position(g, a));
+      for (int b = 0; b <= a; ++b)
+        put(at.D + SymAxes<Pack, Dim>::place(a, b), 0.5 * (rates.c[a][b] + rates.c[b][a]));
+    }
+    put(3, own.volume);
+    put(at.Z, view.density(g) * view.sound_speed(g));
+    for (int k = 0; k < Dim * Dim; ++k) put(at.A + k, A.c[k / Dim][k % Dim]);
+    double* to = d.load + at.size * kLanes * g;
+    for (int line = 0; line < at.size / 8; ++line) store_records(to + 8 * line, at.size, r[line]);
     note_limits<Dim>(d, view, g, out);
   }
 }
 
 template <int Dim, SphKernel Kind, SphReference Reference>
-void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last) const {
-  constexpr int record = load_record(Dim), lines = record / 8;
+template <bool Held>
+void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int last) {
+  constexpr int lines = ((Held ? (fixed ? at.now + Dim : at.now) : at.v) + 7) / 8;
   const WeightScale scale = weight_scale<Kind>(Dim, d.h);
   for (int g = first; g < last; ++g) {
-    Pack own[lines][8], f[Dim];
-    for (int line = 0; line < lines; ++line) {
-      for (int l = 0; l < kLanes; ++l)
-        own[line][l] = load(d.load + record * (kLanes * g + l) + 8 * line);
-      transpose8(own[line]);
-    }
-    for (Pack& component : f) component = 0.0;
-    const NeighbourRows& near = d.neighbours[g];
-    for (int k = 0; k < near.count; ++k) {
-      Pack r[lines][8], x[Dim], squared = 0.0;
-      for (int line = 0; line < lines; ++line)
-        gather_records(d.load + 8 * line, record, near.rows + kLanes * k, r[line]);
+    Loads<lines> own, near;
+    gather_loads(d.load + at.size * kLanes * g, at.size, kOwnLanes, own);
+    Pack f[Dim], held[Dim], heat = 0.0;
+    for (int a = 0; a < Dim; ++a) f[a] = held[a] = 0.0;
+    const NeighbourRows& list = d.neighbours[g];
+    for (int k = 0; k < list.count; ++k) {
+      gather_loads(d.load, at.size, list.rows + kLanes * k, near);
+      Pack x[Dim], squared = 0.0;
       for (int a = 0; a < Dim; ++a) {
-        x[a] = own[0][a] - r[0][a];
+        x[a] = own[a] - near[a];
         squared = fma(x[a], x[a], squared);
       }
-      const Pack w = r[0][3] * weight_slope<Kind>(scale, squared);
+      const Pack w = near[3] * weight_slope<Kind>(scale, squared);
       for (int b = 0; b < Dim; ++b) {
         const Pack along = w * x[b];
+        for (int a = 0; a < Dim; ++a)
+          f[a] = fma(own[at.A + Dim * a + b] + near[at.A + Dim * a + b], along, f[a]);
+      }
+      if constexpr (Held) {
+        if constexpr (fixed)
+          for (int a = 0; a < Dim; ++a) x[a] = own[at.now + a] - near[at.now + a];
+        Pack parting = 0.0, linear = 0.0;  // v_ij.x_ij, x_ij.(D_i + D_j) x_ij
         for (int a = 0; a < Dim; ++a) {
-          const int at = 4 + Dim * a + b;
-          f[a] = fma(own[at / 8][at % 8] + r[at / 8][at % 8], along, f[a]);
+          parting = fma(own[at.v + a] - near[at.v + a], x[a], parting);
+          for (int b = 0; b < Dim; ++b) {
+            const int D = at.D + SymAxes<Pack, Dim>::place(a, b);
+            linear = fma((own[D] + near[D]) * x[a], x[b], linear);
+          }
         }
+        const Pack pull = w * (own[at.Z] + near[at.Z]) * fnma(Pack(0.5), linear, parting);
+        for (int a = 0; a < Dim; ++a) held[a] = fma(pull, x[a], held[a]);
+        heat = fnma(pull, parting, heat);
       }
     }
-    for (int a = 0; a < Dim; ++a) store(d.force + (3 * g + a) * kLanes, own[0][3] * f[a]);
+    const Pack strength = (0.5 * d.zero_energy / d.h) * own[3];
+    for (int a = 0; a < Dim; ++a) {
+      store(d.held + (4 * g + a) * kLanes, strength * held[a]);
+      store(d.force + (3 * g + a) * kLanes, fma(own[3], f[a], strength * held[a]));
+    }
+    store(d.held + (4 * g + 3) * kLanes, 0.5 * strength * heat);
   }
+}
+
+template <int Dim, SphKernel Kind, SphReference Reference>
+void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last) const {
+  if (d.zero_energy > 0)
+    sum_forces<true>(d, first, last);
+  else
+    sum_forces<false>(d, first, last);
 }
 
 /// Before the stages: work into e, strain, places.
@@ -218,7 +257,8 @@ template <int Dim, SphKernel Kind, SphReference Reference>
 KRATER_FORCE_INLINE void Sweeps<Dim, Kind, Reference>::strain_group(const SphData& d,
                                                                     const SphScratch& w,
                                                                     const SphViews& view, double dt,
-                                                                    int g, int local) {
+                                                                    int g, int local,
+                                                                    SphResult& out) {
   const Own<Dim> own = load_own<Dim>(d, g);
   Axes<Dim> N;
   SymAxes<Pack, Dim> unused;
@@ -227,10 +267,14 @@ KRATER_FORCE_INLINE void Sweeps<Dim, Kind, Reference>::strain_group(const SphDat
   const Mat3<Pack> L = gradient(d, N, K, g);
   const Sym3<Pack> sigma = whole_stress(view, g);
   const Pack power = 0.5 * (load(d.power + kLanes * g) + contract(sigma, sym(L)));
-  Pack heat[8];
-  for (int l = 0; l < kLanes; ++l) heat[l] = loadu(d.changes + 4 * (kLanes * g + l));
-  transpose8(heat);
-  view.energy.set(g, view.energy(g) + dt * power / view.density(g) + heat[3]);
+  Pack change[8], held = load(d.held + (4 * g + 3) * kLanes);
+  for (int l = 0; l < kLanes; ++l) change[l] = loadu(d.changes + 4 * (kLanes * g + l));
+  transpose8(change);
+  for (int a = 0; a < Dim; ++a)
+    held = fnma(0.5 * load(d.held + (4 * g + a) * kLanes), change[a], held);
+  out.held += dt * sum(select(first_lanes(d.count - kLanes * g), held, Pack(0.0)));
+  const Pack mass = max(view.mass(g), Pack(1e-200));  // empty lanes have none
+  view.energy.set(g, view.energy(g) + dt * power / view.density(g) + dt * held / mass + change[3]);
   const Mat3<Pack> dtL = Pack(dt) * L;
   double* record = w.local + local * d.columns.local_stride;
   store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, dtL);
@@ -255,7 +299,7 @@ void Sweeps<Dim, Kind, Reference>::strain(const SphData& d, const SphScratch& w,
   const SphColumns& c = d.columns;
   for (int from = first; from < last; from += kSphGroups) {
     const int to = from + kSphGroups < last ? from + kSphGroups : last;
-    for (int g = from; g < to; ++g) strain_group(d, w, view, dt, g, g - from);
+    for (int g = from; g < to; ++g) strain_group(d, w, view, dt, g, g - from, out);
     const BatchData batch{.state = d.particles + from * c.stride,
                           .state_stride = c.stride,
                           .local = w.local,
