@@ -119,7 +119,7 @@ TEST_SUITE("verification") {
           CAPTURE(kernel);
           CAPTURE(reference);
           Run run = start_text(block(
-              frame, "kernel: " + kernel + ", reference: " + reference,
+              frame, "zero_energy: 0, kernel: " + kernel + ", reference: " + reference,
               "[\"0.1*x*z\", \"-0.2*x\"" + std::string{frame == "3d" ? ", \"0.1*y\"]" : "]"}));
           run_steps(run, 5);
           shake(run, 7);

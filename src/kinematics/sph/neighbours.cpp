@@ -97,9 +97,17 @@ void Neighbours::make_from(const double* places, int count) {
   ++made_;
 }
 
+/// How far the particle that is furthest across a plane has gone; 0: none.
+double Neighbours::deepest(const Plane& plane, const double* x, std::size_t stride) const {
+  double across = 0;
+  for (std::size_t i = 0; i < count_; ++i) across = std::max(across, -plane.depth(x + stride * i));
+  return across;
+}
+
 /// Axis after axis, all that is there by then across both planes of it, time and again.
 void Neighbours::find_images(int count) {
   images_.clear();
+  for (Plane& plane : planes_) plane.reach = radius_ + deepest(plane, places_.data(), 3);
   struct Item {
     Image image;
     int last;  ///< plane that it was reflected at last on this axis
@@ -119,7 +127,7 @@ void Neighbours::find_images(int count) {
         const Image& from = items[k].image;
         const double x = from.sign[axis] * places_[3 * static_cast<std::size_t>(from.of) + axis] +
                          from.offset[axis];
-        if (!(plane.inwards * (x - plane.at) < radius_)) continue;
+        if (!(plane.inwards * (x - plane.at) < plane.reach)) continue;
         Image image = from;
         image.sign[axis] = -from.sign[axis];
         image.offset[axis] = 2 * plane.at - from.offset[axis];
@@ -290,14 +298,10 @@ bool Neighbours::may_meet(const CellPair& pair, const std::vector<Reach>& reach)
 
 bool Neighbours::stale(const double* motion) const {
   for (const Plane& plane : planes_) {  // what had no image and may need one
-    const auto depth = [&plane](const double* x) {
-      return plane.inwards * (x[plane.axis] - plane.at);
-    };
-    double across = 0;
-    for (std::size_t i = 0; i < count_; ++i) across = std::min(across, depth(motion + kMotion * i));
+    const double across = deepest(plane, motion, kMotion);
     for (std::size_t i = 0; i < count_; ++i)
-      if (depth(motion + kMotion * i) + across < support_ &&
-          !(depth(places_.data() + 3 * i) < radius_))
+      if (plane.depth(motion + kMotion * i) < support_ + across &&
+          !(plane.depth(places_.data() + 3 * i) < plane.reach))
         return true;
   }
   const std::vector<Reach> reach = reaches(motion);

@@ -116,7 +116,7 @@ void SphStep::add(SphBody made_of) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
     for (std::size_t s = 0; s < 2; ++s)
       if (domain_.sides[a][s].kind == BoundaryKind::symmetry)
-        planes.push_back({a, domain_.planes[a][s], s == 0 ? 1.0 : -1.0});
+        planes.push_back({a, domain_.planes[a][s], s == 0 ? 1.0 : -1.0, 0});
   body->neighbours = Neighbours{dim_, 2 * options.length(),
                                 body->fixed() ? 0 : kSkin * options.length(), std::move(planes)};
   for (const PushingSide& side : pushing_) {

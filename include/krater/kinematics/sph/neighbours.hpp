@@ -9,7 +9,8 @@
 /// over the body makes a list old, as the largest move would.
 ///
 /// Across a plane of symmetry lie mirror images, x -> s x + o along its axis, of what is within R
-/// of it; between two planes images of images, as far as they are within R of the domain.
+/// of it and of as much more as a particle has come across; between two planes images of images, as
+/// far as they are within R of the domain.
 ///
 /// Lists are a function of the places that they were made of and of the order of particles, so a
 /// restart that knows these places has the same ones.
@@ -26,8 +27,10 @@ class Neighbours {
  public:
   struct Plane {
     std::size_t axis;
-    double at;       ///< [m]
-    double inwards;  ///< +1 or -1
+    double at;         ///< [m]
+    double inwards;    ///< +1 or -1
+    double reach = 0;  ///< what is within this of it has an image [m]
+    double depth(const double* x) const { return inwards * (x[axis] - at); }
   };
   Neighbours() = default;
   /// `support`: 2h [m]; `skin` [m].
@@ -70,6 +73,7 @@ class Neighbours {
     std::array<double, 3> low, high;  ///< of the displacements in a cell
   };
   void find_images(int count);
+  double deepest(const Plane& plane, const double* x, std::size_t stride) const;
   void sort_items(int count);
   void find_pairs();
   std::array<std::array<std::uint32_t, 2>, 9> near(const Cell& cell) const;
