@@ -130,23 +130,24 @@ KRATER_FORCE_INLINE Pack particle_length(const SphData& d, Pack volume) {
   return min(Pack(d.h), whole);
 }
 
-/// dt = h/max(sqrt(c_L^2 + c^2), Q + sqrt(Q^2 + c_L^2)), Q = L/h (q_lin c + 2 q_quad L |tr D|).
-/// The highest frequency is that of free corners, where corrected gradients are long: of blocks it
-/// allows 1.02 to 1.5 of it (both weights, h/dx 1.2 to 1.8, Poisson's ratio 0 to 0.49, shaken by a
-/// quarter of dx), of eight particles alone 0.68; without faces 1.9.
+/// The step of the stiffest motion, of frequency 2 c_L/l, damped by Q/c_L:
+///   dt = l/(Q + sqrt(Q^2 + c_L^2)),  Q = L/l (q_lin c + 2 q_quad L |tr D|),
+///   l = h c_L/sqrt(c_L^2 + c^2).
+/// That motion is one of free corners, where corrected gradients are long: of blocks its period
+/// allows 1.02 to 1.5 times l/c_L (both weights, h/dx 1.2 to 1.8, Poisson's ratio 0 to 0.49, shaken
+/// by a quarter of dx, flattened to a third), of eight particles alone 0.68; without faces 1.9.
 template <int Dim>
 KRATER_FORCE_INLINE void note_limits(const SphData& d, const SphViews& view, int g,
                                      SphResult& out) {
   const Pack c = view.sound_speed(g), rho = view.density(g),
              G = load(d.remembered + 2 * kLanes * g),
              tr_D = load(d.remembered + (2 * g + 1) * kLanes);
-  const Pack closing = max(Pack(0.0), -tr_D), length = particle_length<Dim>(d, view.mass(g) / rho);
-  const Pack Qv =
-      select(closing > Pack(0.0),
-             (1 / d.h) * length * fma((2.0 * d.q_quad) * length, closing, d.q_lin * c), Pack(0.0));
   const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
-  const Pack signal = max(sqrt(fma(c, c, c_L_squared)), Qv + sqrt(fma(Qv, Qv, c_L_squared)));
-  note_rate(d, (1 / d.h) * signal, 0, g, out);
+  const Pack per_length = (1 / d.h) * sqrt(1.0 + c * c / c_L_squared);
+  const Pack closing = max(Pack(0.0), -tr_D), length = particle_length<Dim>(d, view.mass(g) / rho);
+  const Pack viscous = per_length * length * fma((2.0 * d.q_quad) * length, closing, d.q_lin * c);
+  const Pack Qv = select(closing > Pack(0.0), viscous, Pack(0.0));
+  note_rate(d, per_length * (Qv + sqrt(fma(Qv, Qv, c_L_squared))), 0, g, out);
   note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
 }
 
