@@ -147,6 +147,18 @@ TEST_SUITE("unit") {
     CHECK(listed(lists, 1).size() == 10);
   }
 
+  TEST_CASE("sph neighbours: a pair that may have come within the support makes lists old") {
+    // Cells of 0.23; side by side, and with one between.
+    for (const auto& [from, to, at] :
+         {std::array{0.05, 0.285, 0.02}, std::array{0.22, 0.461, 0.023}}) {
+      Neighbours lists{3, 0.2, 0.03, {}};
+      lists.make(records({{from, 0, 0}, {to, 0, 0}}).data(), 2);
+      CHECK(listed(lists, 0).empty());
+      CHECK(lists.stale(records({{from + at, 0, 0}, {to - at, 0, 0}}).data()));
+      CHECK(!lists.stale(records({{from + 0.01, 0, 0}, {to - 0.01, 0, 0}}).data()));
+    }
+  }
+
   TEST_CASE("sph neighbours: no pair comes within the support unseen, and flight is no news") {
     const double support = 0.2, skin = 0.03;
     auto x = scattered(500, 3, 11);
