@@ -19,12 +19,13 @@ LAYERS = {
     "geometry": {"core"},
     "materials": {"core", "points"},  # a law knows no dimension, mesh or method
     "contact": {"core", "points", "grid"},  # nodes and fields, for every kinematics
-    "kinematics": {"core", "points", "grid", "contact"},
+    "kinematics": {"core", "points", "grid", "contact", "geometry"},
     "kinematics/mpm": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics"},
     "kinematics/mesh": {"core", "points", "geometry", "materials", "contact", "kinematics"},
+    "kinematics/sph": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "output": {"core", "points", "grid", "geometry"},
     "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics/mpm", "kinematics/mesh",
-              "output"},
+              "kinematics/sph", "output"},
 }
 for folder, also in {"simulation": {"scene", "kinematics"}, "measure": {"simulation"}, "point_driver": {"simulation"},
                      "app": {"measure", "point_driver"}}.items():

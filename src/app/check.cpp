@@ -104,6 +104,25 @@ void print_elements(const Simulation& sim) {
   fmt::print("  time step {:.4g} s, {}\n", sim.stable_step(), sim.describe_limit());
 }
 
+/// How many neighbours particles have, and which sets the step.
+void print_particles(const Simulation& sim) {
+  if (sim.sph() == nullptr) return;
+  const SphHealth health = sim.sph()->health();
+  fmt::print(
+      "particles: {}, {} images beyond planes of symmetry; {:.3g} neighbours in lists; {} "
+      "with gradients that are not corrected in full\n",
+      health.particles, health.images, health.neighbours, health.flat);
+  fmt::print("  time step {:.4g} s, {}\n", sim.stable_step(), sim.describe_limit());
+}
+
+void print_sph(const SphOptions& sph) {
+  fmt::print("  sph: spacing {:.4g} m, smoothing length {:.4g} m, {}, {} gradients, reference {}\n",
+             sph.spacing, sph.length(),
+             sph.kernel == SphKernel::cubic_spline ? "cubic spline" : "Wendland C2",
+             sph.correction == SphCorrection::linear ? "corrected" : "uncorrected",
+             sph.reference == SphReference::current ? "current" : "initial");
+}
+
 void print_block(const Scene& scene, const BodyOptions& body) {
   const Box box =
       intersection(body.solid->extent(scene.frame), domain_box(scene), dimension(scene.frame));
@@ -150,9 +169,10 @@ void print_body(const Simulation& sim, const Scene& scene, int index, int coarse
     print_mesh(scene, body.options(), t.mass / body.material().density);
   else
     print_shape(scene, body, coarser);
+  if (body.options().sph) print_sph(*body.options().sph);
   fmt::print("  stages:");
   for (const NamedStage& s : body.stages()) fmt::print(" {};", s.name);
-  if (!body.options().rigid() && !body.options().mesh)
+  if (!body.options().rigid() && body.options().material_points())
     fmt::print("\n  pressure: {}", body.pressure_on_grid(sim.scene())
                                        ? "integrated on the grid (a fluid, or a soft solid)"
                                        : "integrated over the points");
@@ -264,6 +284,7 @@ void print_check(const RunOptions& options) {
   for (std::size_t b = 0; b < sim.bodies().size(); ++b)
     print_body(sim, scene, static_cast<int>(b), sample.coarser);
   print_elements(sim);
+  print_particles(sim);
   print_contact(scene);
   print_estimate(cost);
   if (!options.output.empty()) write_start(sim, options.output);

@@ -36,18 +36,20 @@ std::vector<std::string> doubt_fields(const Scene& scene) {
 
 std::vector<std::string> doubt_method(const Scene& scene) {
   std::vector<std::string> doubts;
-  const bool elements = std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                                    [](const BodyOptions& body) { return body.mesh.has_value(); });
-  if (!elements) return doubts;
+  const auto none = [&scene](auto has) {
+    return std::none_of(scene.bodies.begin(), scene.bodies.end(), has);
+  };
+  if (!none([](const BodyOptions& body) { return body.material_points(); })) return doubts;
+  const bool elements = none([](const BodyOptions& body) { return body.sph.has_value(); });
   const MethodOptions &m = scene.method, usual;
   const std::pair<const char*, bool> keys[] = {
       {"shape", m.shape != usual.shape},
       {"transfer", m.transfer != usual.transfer},
       {"update", m.update != usual.update},
-      {"points_per_direction", m.points_per_direction != usual.points_per_direction},
+      {"points_per_direction", elements && m.points_per_direction != usual.points_per_direction},
       {"stagger", m.stagger != usual.stagger},
-      {"jitter", m.jitter != usual.jitter},
-      {"seed", m.seed != usual.seed},
+      {"jitter", elements && m.jitter != usual.jitter},
+      {"seed", elements && m.seed != usual.seed},
       {"cell_averaging", m.cell_averaging != usual.cell_averaging},
       {"grid_pressure", m.grid_pressure != usual.grid_pressure},
       {"flip_fraction", m.flip_fraction != usual.flip_fraction},
@@ -56,9 +58,9 @@ std::vector<std::string> doubt_method(const Scene& scene) {
     if (given)
       doubts.push_back(
           fmt::format("method.{} says how points and grid exchange, and every body of this scene "
-                      "has elements: it changes nothing",
-                      key));
-  if (scene.contact.active && scene.contact.normal != ContactOptions{}.normal)
+                      "has {}: it changes nothing",
+                      key, elements ? "elements" : "particles of its own"));
+  if (elements && scene.contact.active && scene.contact.normal != ContactOptions{}.normal)
     doubts.emplace_back(
         "contact.normal says how the normal is found between bodies of points; elements have "
         "faces: "

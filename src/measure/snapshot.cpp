@@ -236,6 +236,18 @@ void add_elements(const Simulation& sim, Json& j) {
     causes[Eroded::names[k]] = Json::of(static_cast<std::int64_t>(eroded.*Eroded::parts[k]));
 }
 
+void add_particles(const Simulation& sim, std::vector<Quantity>& row) {
+  if (sim.sph() == nullptr) return;
+  add(row, "uncorrected_particles", "1", static_cast<double>(sim.sph()->flat_count()));
+  add(row, "stabilisation_heat", "J", sim.audit().stabilisation);
+}
+
+void add_particles(const Simulation& sim, Json& j) {
+  if (sim.sph() == nullptr) return;
+  j["uncorrected_particles"] = Json::of(static_cast<std::int64_t>(sim.sph()->flat_count()));
+  j["stabilisation_heat"] = Json::of(sim.audit().stabilisation);
+}
+
 }  // namespace
 
 OutputFrame make_frame(const Simulation& sim, int number) {
@@ -277,6 +289,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "energy_residual", "J", a.residual(t.kinetic, t.internal));
   add(row, "energy_error_fraction", "1", a.error_fraction());
   if (sim.mesh() != nullptr) add_elements(sim, row);
+  add_particles(sim, row);
   add(row, "mass", "kg", t.mass);
   const Frame frame = sim.scene().frame;
   for (int k = 0; k < dimension(frame); ++k)
@@ -331,6 +344,7 @@ Json audit_json(const Simulation& sim) {
   j["carried_energy"] = Json::of(a.carried);
   j["largest_carried_energy"] = Json::of(a.largest_carried);
   if (sim.mesh() != nullptr) add_elements(sim, j);
+  add_particles(sim, j);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);

@@ -11,6 +11,7 @@
 #include "krater/geometry/seeds/thickness.hpp"
 #include "krater/kinematics/mesh/mesh_step.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
+#include "krater/kinematics/sph/sph_step.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/points/load_fields.hpp"
 #include "krater/simulation/material_plan.hpp"
@@ -84,8 +85,11 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     declare_rigid_points(method, material_->density, layout_);
     return;
   }
-  if (options_->mesh) {
-    declare_elements(material_->density, layout_);
+  if (!options_->material_points()) {
+    if (options_->mesh)
+      declare_elements(material_->density, layout_);
+    else
+      declare_particles(material_->density, layout_);
     if (wants(scene, field::DeformationGradient::info) || strained(scene, index))
       layout_.state<field::DeformationGradient>(0, "output");
   } else {
@@ -102,6 +106,8 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
   add_stages(factory);
   if (options_->mesh)
     declare_element_results(layout_);
+  else if (options_->sph)
+    declare_particle_results(layout_);
   else
     declare_results(heat_floor_ != nullptr, pressure_on_grid(scene), layout_);
   layout_.check();
@@ -112,7 +118,8 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
 
 bool Body::pressure_on_grid(const Scene& scene) const {
   const Column* c = layout_.find(field::SoundSpeed::info.name);
-  if (c == nullptr || options_->mesh || scene.method.reference != Reference::current) return false;
+  if (c == nullptr || !options_->material_points() || scene.method.reference != Reference::current)
+    return false;
   return scene.method.grid_pressure == GridPressure::all ||
          (scene.method.grid_pressure == GridPressure::fluids && is_fluid());
 }
@@ -157,7 +164,7 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
   lattice.points_per_direction = options_->points.per_direction;
   lattice.fit_to_body = options_->points.fit_to_body;
   lattice.origin = scene.grid.min;
-  lattice.stagger = scene.method.stagger;
+  lattice.stagger = scene.method.stagger && !options_->sph;
   lattice.mirror = mirror_planes(scene, lattice);
   lattice.jitter = options_->points.jitter;
   lattice.seed = options_->points.seed;

@@ -60,7 +60,7 @@ KernelShape kernel_shape(Shape s) {
 double stable_share(const Scene& scene) {
   const MethodOptions& method = scene.method;
   for (const BodyOptions& body : scene.bodies)
-    if (body.mesh) return 1;
+    if (!body.material_points()) return 1;
   if (method.transfer == Transfer::xpic) return 0.6;  // its filter feeds back what it takes
   return method.shape == Shape::gimp && method.update == Update::usl ? 0.8 : 1;
 }
@@ -123,6 +123,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   place_rigid_bodies();
   require_faces(*this);
   place_meshes();
+  place_particles();
   find_movers();
   choose_first_step();
   const Totals start = totals();
@@ -177,7 +178,7 @@ void Simulation::place_points() {
   std::map<std::pair<BlockKey, int>, int> where;
   double smallest = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b]->options().mesh) continue;
+    if (!bodies_[b]->options().material_points()) continue;
     const std::vector<SeedPoint> seeds = bodies_[b]->seeds(scene_);
     const int stride = bodies_[b]->layout().stride();
     PointMaker maker{scene_, static_cast<int>(b), *bodies_[b]};
@@ -222,14 +223,16 @@ void Simulation::choose_first_step() {
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
   limit_.rate = std::max((2 * fastest + signal) * geometry_.inv_h, detonation_.rate(time()));
-  if (mesh_ && mesh_->limit().rate > limit_.rate) limit_ = mesh_->limit();
+  for (const Kinematics* k : movers_)
+    if (k != step_.get() && k->limit().rate > limit_.rate) limit_ = k->limit();
   require_steps(scene_.time, clock_.stable_step(limit_.rate));
   clock_.start(limit_.rate);
 }
 
 void Simulation::find_movers() {
   if (mesh_) movers_.push_back(mesh_.get());
-  if (!mesh_ || step_->set_count() > 0) movers_.push_back(step_.get());
+  if (sph_) movers_.push_back(sph_.get());
+  if (movers_.empty() || step_->set_count() > 0) movers_.push_back(step_.get());
 }
 
 void Simulation::find_limit() {
@@ -296,12 +299,15 @@ void Simulation::step(double until) {
     taken = take_step(movers_, asked, encounter_.get());
   } catch (const StepFault& fault) {
     broken_ = true;
-    const std::string text = describe_fault(mesh_sets() + fault.patch, fault.fault);
+    const std::string text = describe_fault(first_points() + fault.patch, fault.fault);
     deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
     throw NumericalError(text);
   } catch (const ElementFault& fault) {
     broken_ = true;
     throw NumericalError(describe_fault(fault.set, fault.fault));
+  } catch (const ParticleFault& fault) {
+    broken_ = true;
+    throw NumericalError(describe_fault(mesh_sets() + fault.set, fault.fault));
   } catch (const EnergyError& e) {
     fail_energy(e);
   } catch (const NumericalError& e) {

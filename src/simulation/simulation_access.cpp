@@ -43,6 +43,7 @@ double Simulation::bytes_per_point() const {
                sizeof(Patch) / 8.0;
   doubles += static_cast<double>(grid_.node_blocks().size()) * kBlockNodes * kNodeDoubles;
   if (mesh_) doubles += static_cast<double>(mesh_->memory()) / 8;
+  if (sph_) doubles += static_cast<double>(sph_->memory()) / 8;
   return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
 }
 
@@ -51,6 +52,7 @@ void Simulation::set_value(int s, int point, int slot, double x) {
 }
 
 void Simulation::book_change() {
+  if (sph_) sph_->find_forces();
   const Totals now = totals();
   audit_.external_work += now.kinetic + now.internal - (audit_.kinetic + audit_.internal);
   audit_.kinetic = now.kinetic;
@@ -83,9 +85,10 @@ Totals& Totals::operator+=(const Totals& other) {
 
 Totals Simulation::totals_of_set(int s) const {
   if (s < mesh_sets()) return totals_of_mesh(s);
+  if (s < first_points()) return totals_of_particles(s);
   Totals t;
   const int dim = geometry_.dimension;
-  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - mesh_sets())];
+  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
   const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
   // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
   for (int i = 0; i < patch.points.count(); ++i) {
@@ -151,14 +154,16 @@ std::string Simulation::describe_point(int s, int point) const {
     position += fmt::format("{}{} = {:.6e} m", a > 0 ? ", " : "", axis_name(scene_.frame, a),
                             value(s, point, body.slot(field::Position::info, a)));
   return fmt::format("body '{}', {} {:.0f} at {}", body.name(),
-                     s < mesh_sets() ? "element" : "point",
+                     s < mesh_sets()      ? "element"
+                     : s < first_points() ? "particle"
+                                          : "point",
                      value(s, point, body.slot(field::Id::info)), position);
 }
 
 double Simulation::energy_per_mass(int s, int point) const {
   const Body& body = *bodies_[static_cast<std::size_t>(set(s).body)];
   double energy = 0;
-  if (s < mesh_sets()) {
+  if (s < first_points()) {
     for (int a = 0; a < geometry_.dimension; ++a) {
       const double v = value(s, point, body.slot(field::Velocity::info, a));
       energy += 0.5 * v * v;

@@ -81,8 +81,8 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   std::vector<std::int64_t> keys;
   const std::vector<int> sets = sets_of(b);
   for (const int s : sets) {
-    if (s < mesh_sets()) continue;
-    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - mesh_sets())];
+    if (s < first_points()) continue;
+    const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
     keys.push_back(patch.points.count());
   }
@@ -107,6 +107,9 @@ void Simulation::save_body(int b, Checkpoint& out) const {
                        }});
   if (is_mesh(b) && !sets.empty())
     out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(sets.front())));
+  if (is_sph(b) && !sets.empty())
+    out.blobs.push_back(
+        numbers(blob_name(body, "particles"), sph_->state(sets.front() - mesh_sets())));
   if (const RigidBody* rigid = rigid_.find(b))
     out.blobs.push_back(numbers(blob_name(body, "rigid"), rigid->state()));
 }
@@ -153,6 +156,7 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
     throw InputError("checkpoint: body '" + body.name() +
                      "' has other columns there: another law, method or version of krater");
   if (is_mesh(b)) return restore_mesh(b, checkpoint);
+  if (is_sph(b)) return restore_particles(b, checkpoint);
   const CheckpointBlob& points = demand(checkpoint, blob_name(body, "points"));
   const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
@@ -163,7 +167,7 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
     grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 3]));
   }
   std::vector<int> sets(grid_.patches().size() - first);
-  std::iota(sets.begin(), sets.end(), mesh_sets() + static_cast<int>(first));
+  std::iota(sets.begin(), sets.end(), first_points() + static_cast<int>(first));
   restore_columns(points, body, sets);
   for (std::size_t p = first; p < grid_.patches().size(); ++p)
     if (!grid_.patches()[p].points.empty()) grid_.patches()[p].points.pad(columns.mass);

@@ -23,6 +23,7 @@ SCENES = {
     "round_nosed_rod": {"frames": ("axisymmetric",), "end": "1 us", "coarse": None},
     "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
     "taylor_steel": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
+    "taylor_copper_sph": {"frames": ("3d",), "end": "1 us", "coarse": "0.762 mm"},
     "taylor_copper": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "two_discs": {"frames": ("plane_strain",), "end": "0.1", "coarse": None},
 }

@@ -64,7 +64,7 @@ REFUSED = {
     "a fixed reference of points": ("method.reference=initial", "reference of its own"),
     "a side that drives": ("grid.boundary.z_max={velocity: [0, -1 m/s]}", "no side that drives"),
     "a load": ("damping={mass: 1e3 1/s}", "neither body_force, damping nor loads"),
-    "an unknown kinematics": ("bodies.bar.kinematics=sph", "lagrangian_mesh"),
+    "an unknown kinematics": ("bodies.bar.kinematics=peridynamics", "lagrangian_mesh"),
     "an unknown hourglass": ("bodies.bar.kinematics={lagrangian_mesh: {hourglass: stiff}}", "assumed_strain"),
     "no length": ("bodies.bar.kinematics={lagrangian_mesh: {element: 0}}", "element"),
 }

@@ -66,6 +66,7 @@ struct Audit {
   double step_external = 0;     ///< work of body forces in the step under way [J]
   double peak_energy = 0;       ///< greatest kinetic + internal + removed energy so far [J]
   double peak_energy_time = 0;  ///< its integral over time [J s]
+  double stabilisation = 0;     ///< heat of what holds zero-energy modes of particles [J]
   double most_folded = 0;       ///< folded elements, the most at a row of the history
 
   /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
@@ -180,6 +181,7 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("step_external", a.step_external);
   visit("peak_energy", a.peak_energy);
   visit("peak_energy_time", a.peak_energy_time);
+  visit("stabilisation", a.stabilisation);
   visit("most_folded", a.most_folded);
 }
 

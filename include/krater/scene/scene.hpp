@@ -18,6 +18,7 @@
 #include "krater/kinematics/mesh/options.hpp"
 #include "krater/kinematics/mpm/load_options.hpp"
 #include "krater/kinematics/mpm/options.hpp"
+#include "krater/kinematics/sph/options.hpp"
 #include "krater/materials/stage.hpp"
 #include "krater/scene/gauges.hpp"
 #include "krater/scene/measures.hpp"
@@ -99,8 +100,10 @@ struct BodyOptions {
   PointOptions points;
   std::shared_ptr<const FieldFunction> velocity;  ///< at the start, prescribed: at all times;
                                                   ///< null: at rest
-  std::optional<MeshOptions> mesh;                ///< of elements; none: of material points
+  std::optional<MeshOptions> mesh;                ///< of elements
+  std::optional<SphOptions> sph;                  ///< of particles; neither: of material points
   Motion motion = Motion::deformable;
+  bool material_points() const { return !mesh && !sph; }
   bool rigid() const { return motion != Motion::deformable; }
 };
 

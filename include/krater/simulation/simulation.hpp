@@ -14,6 +14,7 @@
 #include "krater/kinematics/mesh/mesh_step.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
+#include "krater/kinematics/sph/sph_step.hpp"
 #include "krater/output/results.hpp"
 #include "krater/simulation/body.hpp"
 #include "krater/simulation/detonation.hpp"
@@ -87,15 +88,18 @@ class Simulation {
   Totals totals() const;  ///< of all bodies
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
-  /// All points, in sets of one body; the order is part of the state. First elements, by body.
-  int set_count() const { return mesh_sets() + step_->set_count(); }
+  /// All points, in sets of one body; the order is part of the state. First elements, then
+  /// particles, by body.
+  int set_count() const { return first_points() + step_->set_count(); }
   PointSet set(int s) const {
-    return s < mesh_sets() ? mesh_->set(s) : step_->set(s - mesh_sets());
+    if (s >= first_points()) return step_->set(s - first_points());
+    return s < mesh_sets() ? mesh_->set(s) : sph_->set(s - mesh_sets());
   }
   const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
   bool is_mesh(int body) const {
     return bodies_[static_cast<std::size_t>(body)]->options().mesh.has_value();
   }
+  const SphStep* sph() const { return sph_.get(); }  ///< null: no body has particles
   /// (set, index in it) of every point of a body in order of its id.
   std::vector<std::pair<int, int>> points_by_id(int body) const;
   /// Component at a slot (Body::slot). Inline, for output asks for every component of every point.
@@ -111,12 +115,20 @@ class Simulation {
 
  private:
   int mesh_sets() const { return mesh_ ? mesh_->set_count() : 0; }
-  PointStore& change(int s) {
-    return s < mesh_sets() ? mesh_->change(s) : step_->change(s - mesh_sets());
+  int first_points() const { return mesh_sets() + (sph_ ? sph_->set_count() : 0); }
+  bool is_sph(int body) const {
+    return bodies_[static_cast<std::size_t>(body)]->options().sph.has_value();
   }
-  /// What moves bodies: those of elements first, for material points book what all hold.
+  PointStore& change(int s) {
+    if (s >= first_points()) return step_->change(s - first_points());
+    return s < mesh_sets() ? mesh_->change(s) : sph_->change(s - mesh_sets());
+  }
+  /// What moves bodies: elements first, then particles, for material points book what all hold.
   void find_movers();
   void find_limit();
+  void place_particles();
+  Totals totals_of_particles(int s) const;
+  void restore_particles(int body, const Checkpoint& checkpoint);
   void place_meshes();
   Totals totals_of_mesh(int s) const;
   std::vector<int> sets_of(int body) const;
@@ -164,6 +176,7 @@ class Simulation {
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;
   std::unique_ptr<MeshContact> encounter_;  ///< null: no body of elements meets another
+  std::unique_ptr<SphStep> sph_;
   std::vector<Kinematics*> movers_;
   MeshHealth health_;
   StepClock clock_;

@@ -309,6 +309,7 @@ void check_scene(Reading& reading) {
     used[static_cast<std::size_t>(body.material)] = true;
   }
   check_meshes(reading);
+  check_particles(reading);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
       check_overlap(scene.bodies[i], scene.bodies[j], reading);

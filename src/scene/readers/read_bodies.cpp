@@ -138,6 +138,7 @@ Node read_body(const Node& node, Reading& reading) {
       block.choice<bool>("thin", {{"refused", false}, {"allowed", true}}, body.thin_allowed);
   const Node* points = block.find("points");
   Node resolved_points = read_points(points, block, body.points, reading);
+  if (body.sph) body.points.per_direction.fill(particles_per_cell(body, reading.scene));
   if (!body.mesh || points != nullptr) block.record("points", resolved_points);
   if (const Node* losers = block.find("wins_over")) block.record("wins_over", *losers);
   Node resolved = block.finish();

@@ -76,8 +76,13 @@ void read_erosion(Block& mesh, ErosionOptions& out, Reading& reading) {
 Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
   if (node.kind == Node::Kind::scalar) {
     if (node.text == "mpm") return string_node("mpm");
+    if (node.text == "sph") {
+      read_sph(nullptr, node, body, reading);
+      return string_node("sph");
+    }
     if (node.text != "lagrangian_mesh") {
-      report_unknown(node, "kinematics", node.text, {"mpm", "lagrangian_mesh"}, reading.problems);
+      report_unknown(node, "kinematics", node.text, {"mpm", "lagrangian_mesh", "sph"},
+                     reading.problems);
       return node;
     }
     body.mesh = MeshOptions{};
@@ -85,8 +90,12 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     return string_node("lagrangian_mesh");
   }
   Block block{&node, node.path, node, reading.problems};
+  if (const Node* inner = block.find("sph")) {
+    block.record("sph", read_sph(inner, *inner, body, reading));
+    return block.finish();
+  }
   body.mesh = MeshOptions{};
-  if (const Node* inner = block.require("lagrangian_mesh", "or kinematics: mpm")) {
+  if (const Node* inner = block.require("lagrangian_mesh", "or sph, or kinematics: mpm")) {
     Block mesh{inner, inner->path, *inner, reading.problems};
     body.mesh->element = mesh.number(
         {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
@@ -198,6 +207,17 @@ void check_alone(const Node& place, Reading& reading) {
     fail(
         "has a reference of its own: leave out method.reference, and give kinematics: "
         "{lagrangian_mesh: {reference: initial}}");
+  refuse_idle("lagrangian_mesh", place, reading);
+}
+
+}  // namespace
+
+void refuse_idle(const std::string& kinematics, const Node& place, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const auto fail = [&](const std::string& what) {
+    reading.problems.add(place.file, place.line, place.path,
+                         "kinematics " + kinematics + " " + what);
+  };
   if (scene.body_force || scene.loads.any())
     fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
   if (scene.method.energy_alpha != 0.5)
@@ -208,8 +228,6 @@ void check_alone(const Node& place, Reading& reading) {
       if (side.drives())
         fail("knows no side that drives: give the body a velocity against a wall instead");
 }
-
-}  // namespace
 
 void check_meshes(Reading& reading) {
   const Node& bodies = *reading.root.find("bodies");

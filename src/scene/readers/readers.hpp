@@ -37,6 +37,14 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
 void check_rigid(Reading& reading);
 /// `kinematics:` of a body. Returns the resolved key.
 Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading);
+/// `sph:` in it, null: all defaults. Returns the resolved block.
+Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& reading);
+/// Particles along a cell: a whole number, or the scene is refused.
+int particles_per_cell(const BodyOptions& body, const Scene& scene);
+/// What no kinematics but mpm knows yet: loads, detonators, sides that drive.
+void refuse_idle(const std::string& kinematics, const Node& place, Reading& reading);
+/// What bodies of particles do not go with; after all blocks.
+void check_particles(Reading& reading);
 /// What bodies of elements do not go with; after all blocks. Counts their elements.
 void check_meshes(Reading& reading);
 Node read_contact(const Node& node, Reading& reading);  ///< after read_bodies

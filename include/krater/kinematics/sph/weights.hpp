@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file kinematics/sph/weights.hpp
+/// Weights W(r) of particles, q = r/h, of support 2h:
+///   cubic spline   W = s (1 - 3 q^2/2 + 3 q^3/4), q < 1;   s (2 - q)^3/4, q < 2
+///                  s = 10/(7 pi h^2), 1/(pi h^3)                         (Monaghan 2005, eq. 2.6)
+///   Wendland C2    W = s (1 - q/2)^4 (1 + 2 q);  s = 7/(4 pi h^2), 21/(16 pi h^3)
+///                                                           (Dehnen and Aly 2012, table 1)
+/// and their slopes by the distance, W'(r)/r: finite at r = 0, so that a particle may stand in its
+/// own list, or a lane that is empty for it, and adds nothing there. No gradient of a weight is
+/// longer than its h times W'/r at the inflexion.
+#pragma once
+
+#include <numbers>
+
+#include "krater/core/lane_math.hpp"
+#include "krater/kinematics/sph/options.hpp"
+
+namespace krater::inline KRATER_ISA {
+
+/// Numbers that a sweep needs of h.
+struct WeightScale {
+  double per_h = 0, size = 0, slope = 0;  ///< 1/h; s; s/h^2
+};
+
+template <SphKernel Kind>
+KRATER_FORCE_INLINE WeightScale weight_scale(int dimension, double h) {
+  constexpr double per_pi = std::numbers::inv_pi;
+  const double plane = Kind == SphKernel::cubic_spline ? 10.0 / 7.0 : 7.0 / 4.0,
+               space = Kind == SphKernel::cubic_spline ? 1.0 : 21.0 / 16.0;
+  const double s = dimension == 2 ? plane * per_pi / (h * h) : space * per_pi / (h * h * h);
+  return {1 / h, s, s / (h * h)};
+}
+
+/// W'(r)/r from r^2; zero or less.
+template <SphKernel Kind, class Real>
+KRATER_FORCE_INLINE Real weight_slope(const WeightScale& scale, Real r_squared) {
+  const Real q = Real(scale.per_h) * sqrt(max(r_squared, Real(1e-280)));
+  const Real rest = max(Real(0.0), 2.0 - q);
+  if constexpr (Kind == SphKernel::cubic_spline) {
+    const Real inner = fma(Real(2.25), q, Real(-3.0)), outer = -0.75 * rest * rest / q;
+    return Real(scale.slope) * select(q < Real(1.0), inner, outer);
+  } else {
+    return Real(-0.625 * scale.slope) * (rest * rest * rest);
+  }
+}
+
+/// W(r) from r^2.
+template <SphKernel Kind, class Real>
+KRATER_FORCE_INLINE Real weight(const WeightScale& scale, Real r_squared) {
+  const Real q = Real(scale.per_h) * sqrt(max(r_squared, Real(1e-280)));
+  const Real rest = max(Real(0.0), 2.0 - q);
+  if constexpr (Kind == SphKernel::cubic_spline) {
+    const Real inner = fma(q * q, fma(Real(0.75), q, Real(-1.5)), Real(1.0)),
+               outer = 0.25 * rest * rest * rest;
+    return Real(scale.size) * select(q < Real(1.0), inner, outer);
+  } else {
+    const Real squared = rest * rest;
+    return Real(scale.size / 16) * (squared * squared) * fma(Real(2.0), q, Real(1.0));
+  }
+}
+
+}  // namespace krater::inline KRATER_ISA

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// The particles of one body, as sph_step.hpp steps them.
+#include <memory>
+#include <vector>
+
+#include "krater/kinematics/sph/neighbours.hpp"
+#include "krater/kinematics/sph/sph_step.hpp"
+
+namespace krater {
+
+inline constexpr std::size_t kSphChange = 4;  ///< doubles of a particle's change
+
+struct SphStep::Particles {
+  SphBody made_of;
+  SphColumns columns;
+  PointStore points;
+  std::unique_ptr<SphKernels> kernels;
+  Neighbours neighbours;
+  AlignedBuffer motion, load, correction, power, force, held, remembered, reference, deformation,
+      changes;
+  std::vector<std::vector<double>> standoff;  ///< of every pushing side, of every particle [m]
+  std::size_t flat = 0;
+
+  bool fixed() const { return made_of.options.reference == SphReference::initial; }
+  std::size_t group_count() const { return static_cast<std::size_t>(points.groups()); }
+  double* change(int i) { return changes.data() + kSphChange * static_cast<std::size_t>(i); }
+  Triple vector(int column, int i, int dim) const {
+    Triple out{};
+    for (int a = 0; a < dim; ++a)
+      out[static_cast<std::size_t>(a)] = points.at(column + kLanes * a, i);
+    return out;
+  }
+};
+
+}  // namespace krater

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "scene/readers/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr int kMostPerCell = 8;
+constexpr double kLeastSmoothing = 1, kMostSmoothing = 2;
+
+}  // namespace
+
+int particles_per_cell(const BodyOptions& body, const Scene& scene) {
+  return std::max(1, static_cast<int>(std::lround(scene.grid.cell / body.sph->spacing)));
+}
+
+Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& reading) {
+  const Scene& scene = reading.scene;
+  Block block{node, place.path, place, reading.problems};
+  body.sph = SphOptions{};
+  SphOptions& out = *body.sph;
+  out.spacing = block.number({"spacing", "m", Range::positive,
+                              scene.grid.cell / scene.method.points_per_direction,
+                              "of the particles at the start, along each axis"});
+  const double share = scene.grid.cell / out.spacing;
+  if (!(std::abs(share - std::round(share)) < 1e-6 * share) || share < 0.5 || share > kMostPerCell)
+    block.fail(
+        "spacing must be grid.cell divided by a whole number from 1 to 8: measures and the "
+        "lattice count by cells; change one of the two");
+  out.smoothing = block.number(
+      {"smoothing", "1", Range::positive, out.smoothing, "smoothing length h over the spacing"});
+  if (out.smoothing < kLeastSmoothing || out.smoothing > kMostSmoothing)
+    block.fail("smoothing must be from 1 (26 neighbours in 3d) to 2 (250)");
+  out.zero_energy =
+      block.number({"zero_energy", "1", Range::fraction, out.zero_energy,
+                    "viscosity of pairs that holds modes the gradients do not see; 0: none"});
+  out.kernel = block.choice<SphKernel>(
+      "kernel",
+      {{"cubic_spline", SphKernel::cubic_spline}, {"wendland_c2", SphKernel::wendland_c2}},
+      out.kernel);
+  out.correction = block.choice<SphCorrection>(
+      "correction", {{"linear", SphCorrection::linear}, {"none", SphCorrection::none}},
+      out.correction);
+  out.reference = block.choice<SphReference>(
+      "reference", {{"current", SphReference::current}, {"initial", SphReference::initial}},
+      out.reference);
+  return block.finish();
+}
+
+namespace {
+
+void check_particles_of(const BodyOptions& body, const Node& node, Reading& reading) {
+  const Scene& scene = reading.scene;
+  const auto fail = [&](const Node& at, const std::string& what) {
+    reading.problems.add(at.file, at.line, at.path, "a body of kinematics sph " + what);
+  };
+  if (const Node* points = node.find("points"))
+    for (const char* key : {"per_direction", "lattice", "zones"})
+      if (const Node* given = points->find(key))
+        fail(*given, "has particles on a lattice of its own spacing: leave this key out");
+  if (body.material >= 0 &&
+      scene.materials[static_cast<std::size_t>(body.material)].failure == FailureAction::remove)
+    fail(node,
+         "keeps its failed particles: use failure: {action: strength_loss} in its material, or "
+         "kinematics: mpm");
+  if (body.rigid()) fail(*node.find("rigid"), "cannot be rigid: leave one of the two out");
+}
+
+}  // namespace
+
+void check_particles(Reading& reading) {
+  const Scene& scene = reading.scene;
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                  [](const BodyOptions& body) { return body.sph.has_value(); });
+  if (found == scene.bodies.end()) return;
+  const Node& node = *reading.root.find("bodies")->find(found->name);
+  const Node& place = *node.find("kinematics");
+  check_particles_of(*found, node, reading);
+  const auto fail = [&](const std::string& what) {
+    reading.problems.add(place.file, place.line, place.path, "kinematics sph " + what);
+  };
+  if (scene.frame == Frame::axisymmetric)
+    fail(
+        "is not known in axial symmetry: use frame: 3d (a quarter with x_min and y_min: symmetry)"
+        ", plane_strain, or another kinematics");
+  if (scene.bodies.size() > 1)
+    fail(
+        "does not meet other bodies yet: leave it alone in its scene, against walls, or give all "
+        "bodies another kinematics");
+  if (scene.method.reference != Reference::current)
+    fail(
+        "has a reference of its own: leave out method.reference and say sph: {reference: initial}");
+  refuse_idle("sph", place, reading);
+}
+
+}  // namespace krater::scene
