@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "krater/app/card_doctor.hpp"
+#include "krater/app/check.hpp"
 #include "krater/app/command_line.hpp"
 #include "krater/app/effects.hpp"
 #include "krater/app/field_doubts.hpp"
@@ -240,24 +241,62 @@ void print_estimate(const Forecast& cost) {
       duration_text(cost.setup), duration_text(cost.writing));
 }
 
-/// Where cards came from, what of them is not used, and what no source was read for.
 void print_cards(const Scene& scene) {
-  for (const MaterialOptions& m : scene.materials) {
+  for (const MaterialOptions& m : scene.materials)
     if (!m.card.empty()) fmt::print("material {}: card {}\n", m.name, m.card);
-    for (const std::string& key : m.unused)
-      fmt::print("note: {}: its card holds {}, which this scene does not use ({}: card)\n", m.name,
-                 key, key);
-    if (!m.unsourced.empty())
-      fmt::print("note: {}: its card has no source for {}\n", m.name, fmt::join(m.unsourced, ", "));
-  }
+  for (const std::string& note : card_notes(scene)) fmt::print("note: {}\n", note);
+}
+
+void print_text(const Checked& of, const std::string& file) {
+  const auto& [scene, sim, cost, coarser] = of;
+  fmt::print("{}\nframe {}, cell {:g} m\n", scene.title.empty() ? file : scene.title,
+             name(scene.frame), scene.grid.cell);
+  if (coarser > 1)
+    fmt::print(
+        "note: {} points are not made to be looked at: bodies are filled with cells {} times as "
+        "long\n",
+        count_text(cost.points), coarser);
+  for (std::size_t b = 0; b < sim.bodies().size(); ++b)
+    print_body(sim, scene, static_cast<int>(b), coarser);
+  print_elements(sim);
+  print_particles(sim);
+  print_contact(scene);
+  print_estimate(cost);
+  print_effects(scene, sim);
+  print_cards(scene);
+  for (const std::string& doubt : doubts_of(scene)) fmt::print("doubt: {}\n", doubt);
 }
 
 }  // namespace
 
+std::vector<std::string> card_notes(const Scene& scene) {
+  std::vector<std::string> notes;
+  for (const MaterialOptions& m : scene.materials) {
+    for (const std::string& key : m.unused)
+      notes.push_back(fmt::format("{}: its card holds {}, which this scene does not use ({}: card)",
+                                  m.name, key, key));
+    if (!m.unsourced.empty())
+      notes.push_back(
+          fmt::format("{}: its card has no source for {}", m.name, fmt::join(m.unsourced, ", ")));
+  }
+  return notes;
+}
+
+std::vector<std::string> doubts_of(const Scene& scene) {
+  std::vector<std::string> doubts;
+  for (const MaterialOptions& m : scene.materials)
+    for (const std::string& doubt : examine(m))
+      doubts.push_back(fmt::format("{}: {}", m.name, doubt));
+  for (const auto& some : {doubt_fields(scene), doubt_method(scene), doubt_scene(scene)})
+    doubts.insert(doubts.end(), some.begin(), some.end());
+  return doubts;
+}
+
 void print_check(const RunOptions& options) {
   set_threads(options.threads);
   const Scene scene = read_scene(options.scene, options.overrides);
-  for (const std::string& note : scene.notes) fmt::print("note: {}\n", note);
+  if (!options.json)
+    for (const std::string& note : scene.notes) fmt::print("note: {}\n", note);
   const Forecast cost = forecast(scene);
   require_feasible(scene, cost);
   const Sample sample = sample_of(scene, options.output.empty() ? cost.points : 0);
@@ -274,27 +313,12 @@ void print_check(const RunOptions& options) {
     for (std::size_t b = 0; b < sim.bodies().size(); ++b)
       if (!scene.bodies[b].thin_allowed) sim.bodies()[b]->require_thickness(scene.grid.cell);
   }
-  fmt::print("{}\nframe {}, cell {:g} m\n", scene.title.empty() ? options.scene : scene.title,
-             name(scene.frame), scene.grid.cell);
-  if (sample.coarser > 1)
-    fmt::print(
-        "note: {} points are not made to be looked at: bodies are filled with cells {} times as "
-        "long\n",
-        count_text(cost.points), sample.coarser);
-  for (std::size_t b = 0; b < sim.bodies().size(); ++b)
-    print_body(sim, scene, static_cast<int>(b), sample.coarser);
-  print_elements(sim);
-  print_particles(sim);
-  print_contact(scene);
-  print_estimate(cost);
   if (!options.output.empty()) write_start(sim, options.output);
-  print_effects(scene, sim);
-  print_cards(scene);
-  for (const MaterialOptions& m : scene.materials)
-    for (const std::string& doubt : examine(m)) fmt::print("doubt: {}: {}\n", m.name, doubt);
-  for (const std::string& doubt : doubt_fields(scene)) fmt::print("doubt: {}\n", doubt);
-  for (const std::string& doubt : doubt_method(scene)) fmt::print("doubt: {}\n", doubt);
-  for (const std::string& doubt : doubt_scene(scene)) fmt::print("doubt: {}\n", doubt);
+  const Checked checked{scene, sim, cost, sample.coarser};
+  if (options.json)
+    fmt::print("{}", to_text(check_json(checked)));
+  else
+    print_text(checked, options.scene);
 }
 
 }  // namespace krater

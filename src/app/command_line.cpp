@@ -136,6 +136,7 @@ int command_line(int argc, char** argv) {
   check_command->add_option("-o,--output", options.output,
                             "also write the points at the start into this folder "
                             "(tools/plot_scene draws them)");
+  check_command->add_flag("--json", options.json, "print one JSON object instead of text");
   CLI::App* point_command = app.add_subcommand("point", "take one material through a loading path");
   add_scene_options(point_command, options);
   point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");

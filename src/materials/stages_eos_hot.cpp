@@ -11,11 +11,34 @@ namespace krater::inline KRATER_ISA {
 
 namespace {
 
+/// Whether the pressure of this matter knows its energy.
+template <class Matter>
+bool feels_energy(const Matter& law) {
+  const double rho = 1.2 * law.rho0;  // where a law of tension alone would differ
+  return split_at(law, rho, 1.0 / rho, energy_at_start(law)).thermal > 0.0;
+}
+
+/// A law whose gamma0 may be zero and is: its stage books the work as that of a barotropic law
+/// does, for all the energy of matter without a heat floor is held against it (Audit::unfelt). A
+/// type of its own, so that no other scene pays for the sum.
+template <class Law>
+struct Unheated : Law {
+  static constexpr bool barotropic = true;
+};
+
+template <Tension tension, class Law>
+Stage* make_dilating(const Law& law, const EosRequest& r, Layout& layout) {
+  if (r.dilates) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
+  return new EosStage<Law, tension, false>{law, r.spall_strength, layout};
+}
+
 template <class Law, Tension tension>
 Stage* make_tensile(const EosRequest& r, Layout& layout) {
   const Law law = make_law<Law>(r.values, r.constants);
-  if (r.dilates) return new EosStage<Law, tension, true>{law, r.spall_strength, layout};
-  return new EosStage<Law, tension, false>{law, r.spall_strength, layout};
+  if constexpr (requires { law.gamma0; }) {
+    if (!feels_energy(matter_of(law))) return make_dilating<tension>(Unheated<Law>{law}, r, layout);
+  }
+  return make_dilating<tension>(law, r, layout);
 }
 
 template <class Law>
@@ -27,8 +50,7 @@ Stage* make_heating_of(const Law& law, const EnergyHeatingRequest& r, Layout& la
 
 template <class Law>
 Stage* make_floor_of(const Law& law, Layout& layout) {
-  const double rho = 1.2 * law.rho0;  // where a law of tension alone would differ
-  if (!(split_at(law, rho, 1.0 / rho, energy_at_start(law)).thermal > 0.0)) return nullptr;
+  if (!feels_energy(law)) return nullptr;
   return new HeatFloorStage<Law>{law, layout};
 }
 
