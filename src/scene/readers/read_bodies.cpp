@@ -139,7 +139,7 @@ Node read_body(const Node& node, Reading& reading) {
   const Node* points = block.find("points");
   Node resolved_points = read_points(points, block, body.points, reading);
   if (body.sph) body.points.per_direction.fill(particles_per_cell(body, reading.scene));
-  if (!body.mesh || points != nullptr) block.record("points", resolved_points);
+  if (body.material_points() || points != nullptr) block.record("points", resolved_points);
   if (const Node* losers = block.find("wins_over")) block.record("wins_over", *losers);
   Node resolved = block.finish();
   reading.scene.bodies.push_back(std::move(body));
