@@ -124,8 +124,9 @@ TEST_SUITE("unit") {
       CAPTURE(file);
       check_fixed_point(read_scene(file), folder);
       const std::string stem = entry.path().stem().string();
-      // No axis; square bars; a square plate held at two edges.
+      // No axis; square bars; a square plate held at two edges; a quarter of particles.
       if (stem == "two_discs" || stem == "ccf_two_bars" || stem == "spear_plate") continue;
+      if (stem == "taylor_copper_sph") continue;
       if (stem == "round_nosed_rod") continue;  // its file holds axisymmetric elements
       const bool hole = stem == "ccf_plugging" || stem == "hiermaier_al";
       for (Frame frame : all_frames) {
