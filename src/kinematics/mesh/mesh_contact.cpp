@@ -37,7 +37,6 @@ void MeshContact::find_faces() {
 }
 
 void MeshContact::push(double dt) {
-  parts_.mesh.hold_nodes();
   bodies_ = parts_.mesh.nodes();
   find_faces();
   carriers_.clear();
@@ -55,6 +54,7 @@ void MeshContact::push(double dt) {
   weigh();
   for (const Meeting& m : meetings_)
     if (m.rigid) rigid_part(m.side[1].of_scene);
+  parts_.mesh.hold_nodes();
   list_touched();
   note_changes(-1);  // dv with contact less dv without it
   for (int k = 0; k < kPasses; ++k) pass(dt);
