@@ -50,7 +50,7 @@ void Simulation::place_meshes() {
     if (!body.options().mesh) continue;
     if (!mesh_) {
       mesh_kernels_.reset(mesh_kernel_factory(level_).make(mesh_frame(scene_.frame)));
-      MeshStep::Domain domain{scene_.frame, scene_.grid.boundary, {}};
+      DomainSides domain{scene_.frame, scene_.grid.boundary, {}};
       for (std::size_t a = 0; a < 3; ++a)
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);

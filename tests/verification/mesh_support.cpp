@@ -36,7 +36,7 @@ MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& ove
   for (const NamedStage& s : stages_) pointers_.push_back(s.stage.get());
   kernels_.reset(mesh_kernel_factory(best_isa_level()).make(frame_of(scene_->frame)));
 
-  MeshStep::Domain domain{scene_->frame, scene_->grid.boundary, {}};
+  DomainSides domain{scene_->frame, scene_->grid.boundary, {}};
   for (std::size_t a = 0; a < 3; ++a) domain.planes[a] = {scene_->grid.min[a], scene_->grid.max[a]};
   step_ = std::make_unique<MeshStep>(domain, *kernels_, audit_);
   ElementBody made{.body = 0,

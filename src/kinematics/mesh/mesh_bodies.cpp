@@ -152,18 +152,12 @@ void declare_element_results(Layout& layout) {
   layout.local_input<field::DilatationRate>(kMethod);
 }
 
-MeshStep::MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit)
-    : domain_{domain}, dim_{dimension(domain.frame)}, kernels_{kernels}, audit_{audit} {
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
-    for (std::size_t s = 0; s < 2; ++s) {
-      const Boundary& side = domain.sides[a][s];
-      if (side.drives())
-        throw std::invalid_argument("a side of the domain that drives a body of elements");
-      const bool sticky = side.kind == BoundaryKind::sticky;
-      if (sticky || side.kind == BoundaryKind::wall)
-        pushing_.push_back({a, s == 0 ? 1.0 : -1.0, domain.planes[a][s], side.friction, sticky});
-    }
-}
+MeshStep::MeshStep(const DomainSides& domain, const MeshKernels& kernels, Audit& audit)
+    : domain_{domain},
+      dim_{dimension(domain.frame)},
+      pushing_{pushing_sides(domain)},
+      kernels_{kernels},
+      audit_{audit} {}
 
 MeshStep::~MeshStep() = default;
 

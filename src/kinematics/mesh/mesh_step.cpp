@@ -204,24 +204,6 @@ void MeshStep::hold_planes(Elements& b, std::size_t first, std::size_t last, Wal
     }
 }
 
-/// The push of a side on a node whose velocity is v + change, by `missing` along its normal.
-Triple MeshStep::push_of(const PushingSide& side, double missing, const double* node,
-                         const double* change) const {
-  const auto dim = static_cast<std::size_t>(dim_);
-  Triple push{};
-  push[side.axis] = side.inwards * missing;
-  double squares = 0;
-  for (std::size_t t = 0; t < dim; ++t)
-    if (t != side.axis) squares += (node[4 + t] + change[t]) * (node[4 + t] + change[t]);
-  const double slip = std::sqrt(squares);
-  const double share = side.sticky ? 1
-                       : slip > 0  ? std::min(1.0, side.friction * missing / slip)
-                                   : 0;
-  for (std::size_t t = 0; t < dim; ++t)
-    if (t != side.axis) push[t] = -share * (node[4 + t] + change[t]);
-  return push;
-}
-
 void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last, double dt,
                                WallSums& sums) const {
   if (pushing_.empty()) return;
@@ -234,7 +216,9 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
       const double touching = (side.plane - node[side.axis]) / dt;
       const double missing = side.inwards * (touching - node[4 + side.axis] - change[side.axis]);
       if (!(missing > 0)) continue;
-      const Triple push = push_of(side, missing, node, change);
+      Triple v{};
+      for (std::size_t t = 0; t < dim; ++t) v[t] = node[4 + t] + change[t];
+      const Triple push = side.push(v, missing, dim_);
       pushed = true;
       Triple& by_side = sums.by_side[2 * side.axis + (side.inwards < 0 ? 1 : 0)];
       for (std::size_t t = 0; t < dim; ++t) {

@@ -24,6 +24,7 @@
 #include "krater/kinematics/mesh/mesh.hpp"
 #include "krater/kinematics/mesh/mesh_health.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
+#include "krater/kinematics/sides.hpp"
 
 namespace krater {
 
@@ -71,13 +72,8 @@ struct ElementFault {
 
 class MeshStep final : public Kinematics {
  public:
-  struct Domain {
-    Frame frame = Frame::cartesian_3d;
-    std::array<std::array<Boundary, 2>, 3> sides{};
-    std::array<std::array<double, 2>, 3> planes{};  ///< where they are [m]
-  };
   /// Throws std::invalid_argument for a side that drives.
-  MeshStep(const Domain& domain, const MeshKernels& kernels, Audit& audit);
+  MeshStep(const DomainSides& domain, const MeshKernels& kernels, Audit& audit);
   ~MeshStep() override;
 
   /// Who is told what sides give bodies; `apart`: bodies are velocity fields of their own.
@@ -130,11 +126,6 @@ class MeshStep final : public Kinematics {
     std::array<Triple, 6> by_side{};  ///< on the body, of each side that pushes [N s]
     Triple impulse{};
   };
-  struct PushingSide {  ///< a wall, or a side that holds what touches it
-    std::size_t axis;
-    double inwards, plane, friction;
-    bool sticky;
-  };
   struct Chunk {
     std::size_t body;
     int first, last;
@@ -142,8 +133,6 @@ class MeshStep final : public Kinematics {
   ElementScratch scratch();
   ElementData data(Elements& body);
   void hold_planes(Elements& body, std::size_t first, std::size_t last, WallSums& sums) const;
-  Triple push_of(const PushingSide& side, double missing, const double* node,
-                 const double* change) const;
   void push_from_sides(Elements& body, std::size_t first, std::size_t last, double dt,
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
@@ -156,7 +145,7 @@ class MeshStep final : public Kinematics {
   void find_limit(const std::vector<ElementResult>& results);
   void book(const std::vector<ElementResult>& results, const Standing& others);
 
-  Domain domain_;
+  DomainSides domain_;
   int dim_;
   std::vector<PushingSide> pushing_;
   const MeshKernels& kernels_;
