@@ -370,6 +370,8 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (failed > 0)
     tell(fmt::format("note: {:.0f} points failed and were removed, as the scene asks", failed));
   if (eroded.all() > 0) tell("note: " + describe_eroded(eroded));
+  const Eroded converted = sim_.mesh() != nullptr ? sim_.mesh()->converted() : Eroded{};
+  if (converted.all() > 0) tell("note: " + describe_converted(converted));
   const std::vector<Warning>& warnings = sim_.warnings().all();
   for (const Warning& warning : warnings) tell_always("warning: " + sentence(warning));
   const std::string with = warnings.empty() ? ""

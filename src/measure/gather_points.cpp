@@ -136,7 +136,7 @@ void gather_points(const Simulation& sim, const std::vector<int>& bodies, const 
           {&values, slot_of(*sim.bodies()[static_cast<std::size_t>(bodies[b])], name)});
   out.edges.clear();
   for (const SetPlace& place : places) {
-    if (!sim.is_mesh(bodies[place.body])) continue;
+    if (!sim.is_mesh_set(place.set)) continue;
     for (const auto& [a, b] : sim.mesh()->surface(place.set))
       out.edges.push_back({sim.mesh()->position(place.set, static_cast<std::size_t>(a)),
                            sim.mesh()->position(place.set, static_cast<std::size_t>(b))});

@@ -4,188 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <numeric>
-#include <set>
 
 #include "krater/core/parallel.hpp"
-#include "krater/measure/measurements.hpp"
+#include "measure/place.hpp"
 
 namespace krater {
 
 namespace {
-
-/// Where a point is, and its components by slot.
-struct Place {
-  const double* point;
-  double operator()(int slot) const { return point[kLanes * slot]; }
-};
-using PointList = std::shared_ptr<const std::vector<Place>>;
-
-const std::vector<std::string>& tensor_names(Frame f) {
-  static const std::vector<std::string> cartesian{"xx", "yy", "zz", "yz", "xz", "xy"};
-  static const std::vector<std::string> cylindrical{"rr", "tt", "zz", "tz", "rz", "rt"};
-  return f == Frame::axisymmetric ? cylindrical : cartesian;
-}
-
-const std::vector<std::string>& vector_names(Frame f) {
-  static const std::vector<std::string> cartesian{"x", "y", "z"};
-  static const std::vector<std::string> cylindrical{"r", "t", "z"};
-  return f == Frame::axisymmetric ? cylindrical : cartesian;
-}
-
-/// Columns that serve the method, not the user.
-bool is_internal(const char* name) {
-  static const std::set<std::string> names{
-      "id",       "position",      "affine_velocity",   "shock_indicator",   "half_width",
-      "domain",   "grid_velocity", "body_acceleration", "deviatoric_stress", "load_share",
-      "load_unit"};
-  return names.contains(name);
-}
-
-bool asked_for(const Scene& scene, const char* name) {
-  for (const std::string& f : scene.output.fields)
-    if (f == name) return true;
-  return false;
-}
-
-/// Rows of `width` numbers, each made by `put(number, row)`.
-template <class T, class Put>
-Rows<T> numbered_rows(int width, Put put) {
-  return [width, put](std::size_t first, std::size_t count, T* out) {
-    for (std::size_t i = first; i < first + count; ++i, out += width) put(i, out);
-  };
-}
-
-/// Rows of `width` numbers, each made by `put(point, row)`.
-template <class T, class Put>
-Rows<T> rows_of(const PointList& points, int width, Put put) {
-  return numbered_rows<T>(width, [points, put](std::size_t i, T* row) { put((*points)[i], row); });
-}
-
-/// s:s of the deviator from slot `s` on.
-double squared_deviator(Place at, int s) {
-  double square = 0;
-  for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * at(s + k) * at(s + k);
-  return square;
-}
-
-/// Values of a column, vectors along grid axes widened to space.
-FieldArray column_array(const Simulation& sim, const Column& c, const PointList& points) {
-  const Frame frame = sim.scene().frame;
-  FieldArray out;
-  out.name = c.field->name;
-  out.unit = c.field->unit;
-  out.meaning = c.field->meaning;
-  const bool is_vector = c.field->components == kPerAxis;
-  out.components = is_vector ? 3 : c.components;
-  if (is_vector) out.component_names = vector_names(frame);
-  if (c.components == 6) out.component_names = tensor_names(frame);
-  const int slot = c.offset / kLanes, components = c.components;
-  out.values = rows_of<double>(points, out.components, [=](Place at, double* row) {
-    if (is_vector) std::fill_n(row, 3, 0.0);
-    for (int k = 0; k < components; ++k) row[is_vector ? tensor_axis(frame, k) : k] = at(slot + k);
-  });
-  return out;
-}
-
-void add_stress(const Simulation& sim, const Body& body, const PointList& points, BodyFrame& out) {
-  const int s = body.slot(field::DeviatoricStress::info), p = body.slot(field::Pressure::info);
-  if (s < 0) return;
-  const auto stress = [=](Place at, double* row) {
-    const double pressure = p < 0 ? 0 : at(p);
-    for (int k = 0; k < 6; ++k) row[k] = at(s + k) - (k < 3 ? pressure : 0);
-  };
-  const auto mises = [=](Place at, double* row) {
-    *row = std::sqrt(1.5 * squared_deviator(at, s));
-  };
-  out.fields.push_back({"stress", "Pa", "Cauchy stress, tension positive, without viscosity", 6,
-                        tensor_names(sim.scene().frame), rows_of<double>(points, 6, stress)});
-  out.fields.push_back({"von_mises",
-                        "Pa",
-                        "von Mises stress sqrt(3/2 s:s)",
-                        1,
-                        {},
-                        rows_of<double>(points, 1, mises)});
-}
-
-PointList places_by_id(const Simulation& sim, int body) {
-  auto places = std::make_shared<std::vector<Place>>();
-  for (const auto& [set, i] : sim.points_by_id(body))
-    places->push_back({sim.set(set).points->point(i)});
-  return places;
-}
-
-/// A vector along grid axes, in space.
-void widen(Frame frame, const Triple& v, double* row) {
-  std::fill_n(row, 3, 0.0);
-  for (int a = 0; a < dimension(frame); ++a)
-    row[tensor_axis(frame, a)] = v[static_cast<std::size_t>(a)];
-}
-
-FrameMesh frame_mesh(const Simulation& sim, int s) {
-  const MeshStep& step = *sim.mesh();
-  const Mesh& mesh = step.mesh(s);
-  const Frame frame = sim.scene().frame;
-  FrameMesh out;
-  out.nodes = step.node_count(s);
-  out.corners = mesh.corners();
-  const auto order = std::make_shared<std::vector<std::pair<int, int>>>(
-      sim.points_by_id(sim.set(s).body));  // of the rows; eroded bodies keep no order
-  out.connectivity = [&mesh, order](std::size_t first, std::size_t count, std::int64_t* to) {
-    const auto corners = static_cast<std::size_t>(mesh.corners());
-    for (std::size_t row = first; row < first + count; ++row)
-      to = std::copy_n(
-          mesh.elements.data() + static_cast<std::size_t>((*order)[row].second) * corners, corners,
-          to);
-  };
-  out.coordinates = numbered_rows<double>(
-      3, [&step, s, frame](std::size_t n, double* row) { widen(frame, step.position(s, n), row); });
-  const auto velocity = [&step, s, frame](std::size_t n, double* row) {
-    widen(frame, step.velocity(s, n), row);
-  };
-  const auto mass = [&step, s](std::size_t n, double* row) { *row = step.mass(s, n); };
-  out.fields.push_back({"velocity", "m/s", "velocity of the node", 3, vector_names(frame),
-                        numbered_rows<double>(3, velocity)});
-  out.fields.push_back(
-      {"mass", "kg", "its share of its elements", 1, {}, numbered_rows<double>(1, mass)});
-  return out;
-}
-
-BodyFrame body_frame(const Simulation& sim, int b) {
-  const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
-  const Frame frame = sim.scene().frame;
-  const PointList points = places_by_id(sim, b);
-  BodyFrame out;
-  out.body = body.name();
-  out.points = points->size();
-  const int id = body.slot(field::Id::info), x = body.slot(field::Position::info);
-  out.ids = rows_of<std::int64_t>(
-      points, 1, [id](Place at, std::int64_t* row) { *row = static_cast<std::int64_t>(at(id)); });
-  out.coordinates = rows_of<double>(points, 3, [x, frame](Place at, double* row) {
-    Triple place{};
-    for (int a = 0; a < dimension(frame); ++a) place[static_cast<std::size_t>(a)] = at(x + a);
-    widen(frame, place, row);
-  });
-  for (const Column& c : body.layout().columns())
-    if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
-      out.fields.push_back(column_array(sim, c, points));
-  add_stress(sim, body, points, out);
-  if (body.options().mesh)
-    for (int s = 0; s < sim.set_count(); ++s)
-      if (sim.set(s).body == b) out.mesh = frame_mesh(sim, s);
-  if (!asked_for(sim.scene(), kFragmentField)) return out;
-  const auto pieces = std::make_shared<const std::vector<double>>(fragment_numbers(sim, b));
-  out.fields.push_back({kFragmentField,
-                        "1",
-                        "connected piece of its body, 0 the heaviest",
-                        1,
-                        {},
-                        [pieces](std::size_t first, std::size_t count, double* to) {
-                          std::copy_n(pieces->data() + first, count, to);
-                        }});
-  return out;
-}
 
 void add(std::vector<Quantity>& row, std::string name, std::string unit, double value) {
   row.push_back({std::move(name), std::move(unit), value});
@@ -202,7 +28,7 @@ double deviatoric_energy(const Simulation& sim, int set) {
   if (s < 0 || G <= 0) return 0;
   double sum = 0;
   for (int i = 0; i < points.count(); ++i) {
-    const Place at{points.points->point(i)};
+    const PointPlace at{points.points->point(i)};
     sum += at(m) * squared_deviator(at, s) / (4 * G * at(rho) * (phi < 0 ? 1 : 1 - at(phi)));
   }
   return sum;
@@ -219,6 +45,15 @@ void add_elements(const Simulation& sim, std::vector<Quantity>& row) {
   add(row, "hourglass_energy", "J", sim.elements().hourglass);
   add(row, "folded_elements", "1", static_cast<double>(sim.elements().folded));
   add(row, "eroded_elements", "1", sim.mesh()->eroded().all());
+  add(row, "converted_elements", "1", sim.mesh()->converted().all());
+}
+
+void add_causes(Json& j, const std::string& what, const Eroded& eroded) {
+  j[what + "_elements"] = Json::of(static_cast<std::int64_t>(eroded.all()));
+  if (!(eroded.all() > 0)) return;
+  Json& causes = j[what + "_by"];
+  for (std::size_t k = 0; k < Eroded::parts.size(); ++k)
+    causes[Eroded::names[k]] = Json::of(static_cast<std::int64_t>(eroded.*Eroded::parts[k]));
 }
 
 void add_elements(const Simulation& sim, Json& j) {
@@ -228,12 +63,10 @@ void add_elements(const Simulation& sim, Json& j) {
   j["folded_elements"] = Json::of(static_cast<std::int64_t>(mesh.folded));
   j["most_folded_elements"] = Json::of(static_cast<std::int64_t>(sim.audit().most_folded));
   j["least_corner_jacobian"] = Json::of(mesh.least_corner);
-  const Eroded eroded = sim.mesh()->eroded();
-  j["eroded_elements"] = Json::of(static_cast<std::int64_t>(eroded.all()));
-  if (!(eroded.all() > 0)) return;
-  Json& causes = j["eroded_by"];
-  for (std::size_t k = 0; k < Eroded::parts.size(); ++k)
-    causes[Eroded::names[k]] = Json::of(static_cast<std::int64_t>(eroded.*Eroded::parts[k]));
+  add_causes(j, "eroded", sim.mesh()->eroded());
+  add_causes(j, "converted", sim.mesh()->converted());
+  if (sim.mesh()->converted().all() > 0)
+    j["conversion_heat"] = Json::of(sim.audit().conversion_heat);
 }
 
 void add_particles(const Simulation& sim, std::vector<Quantity>& row) {
@@ -249,16 +82,6 @@ void add_particles(const Simulation& sim, Json& j) {
 }
 
 }  // namespace
-
-OutputFrame make_frame(const Simulation& sim, int number) {
-  OutputFrame out;
-  out.number = number;
-  out.time = sim.time();
-  out.step = sim.steps();
-  for (std::size_t b = 0; b < sim.bodies().size(); ++b)
-    out.bodies.push_back(body_frame(sim, static_cast<int>(b)));
-  return out;
-}
 
 std::vector<Quantity> history_row(const Simulation& sim) {
   const Audit& a = sim.audit();

@@ -85,7 +85,7 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     declare_rigid_points(method, material_->density, layout_);
     return;
   }
-  if (!options_->material_points()) {
+  if (!options_->material_points() && !options_->becomes_points()) {
     if (options_->mesh)
       declare_elements(material_->density, layout_);
     else
@@ -104,11 +104,9 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
         layout_);
   }
   add_stages(factory);
-  if (options_->mesh)
-    declare_element_results(layout_);
-  else if (options_->sph)
-    declare_particle_results(layout_);
-  else
+  if (options_->mesh) declare_element_results(layout_);
+  if (options_->sph) declare_particle_results(layout_);
+  if (options_->material_points() || options_->becomes_points())
     declare_results(heat_floor_ != nullptr, pressure_on_grid(scene), layout_);
   layout_.check();
   const Column* c = layout_.find(field::SoundSpeed::info.name);
@@ -122,6 +120,10 @@ bool Body::pressure_on_grid(const Scene& scene) const {
     return false;
   return scene.method.grid_pressure == GridPressure::all ||
          (scene.method.grid_pressure == GridPressure::fluids && is_fluid());
+}
+
+double Body::signal_speed() const {
+  return sound_speed_ * std::max(std::sqrt(2.0), q_lin_ + std::sqrt(1 + q_lin_ * q_lin_));
 }
 
 bool Body::is_fluid() const {

@@ -209,8 +209,7 @@ void Simulation::choose_first_step() {
   for (const Patch& p : grid_.patches()) {
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
-    const double viscous = body.q_lin() + std::sqrt(1 + body.q_lin() * body.q_lin());
-    signal = std::max(signal, body.initial_sound_speed() * std::max(std::sqrt(2.0), viscous));
+    signal = std::max(signal, body.signal_speed());
     for (int i = 0; i < p.points.count(); ++i)
       for (int a = 0; a < geometry_.dimension; ++a) {
         const double speed = std::abs(p.points.at(c.velocity + kLanes * a, i));
@@ -232,7 +231,10 @@ void Simulation::choose_first_step() {
 void Simulation::find_movers() {
   if (mesh_) movers_.push_back(mesh_.get());
   if (sph_) movers_.push_back(sph_.get());
-  if (movers_.empty() || step_->set_count() > 0) movers_.push_back(step_.get());
+  const bool becomes_points = std::any_of(bodies_.begin(), bodies_.end(), [](const auto& body) {
+    return body->options().becomes_points();
+  });
+  if (movers_.empty() || becomes_points || step_->set_count() > 0) movers_.push_back(step_.get());
 }
 
 void Simulation::find_limit() {
@@ -320,6 +322,7 @@ void Simulation::step(double until) {
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
   find_limit();
+  if (mesh_) adopt_converted();
   try {
     energy_watch_.check(audit_, taken);
   } catch (const EnergyError& e) {

@@ -105,8 +105,7 @@ void Simulation::save_body(int b, Checkpoint& out) const {
                                *to++ = from.at(kLanes * slots[row], i);
                            }
                        }});
-  if (is_mesh(b) && !sets.empty())
-    out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(sets.front())));
+  if (is_mesh(b)) out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(mesh_set(b))));
   if (is_sph(b) && !sets.empty())
     out.blobs.push_back(
         numbers(blob_name(body, "particles"), sph_->state(sets.front() - mesh_sets())));
@@ -155,22 +154,28 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   if (demand(checkpoint, blob_name(body, "columns")).text != columns_text(body))
     throw InputError("checkpoint: body '" + body.name() +
                      "' has other columns there: another law, method or version of krater");
-  if (is_mesh(b)) return restore_mesh(b, checkpoint);
   if (is_sph(b)) return restore_particles(b, checkpoint);
   const CheckpointBlob& points = demand(checkpoint, blob_name(body, "points"));
   const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
   const std::size_t first = grid_.patches().size();
+  std::uint64_t count = 0;
   for (std::size_t i = 0; i + 3 < keys.size(); i += 4) {
     BlockKey key;
     for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(keys[i + a]);
     grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 3]));
+    count += static_cast<std::uint64_t>(keys[i + 3]);
   }
   std::vector<int> sets(grid_.patches().size() - first);
   std::iota(sets.begin(), sets.end(), first_points() + static_cast<int>(first));
+  if (is_mesh(b)) {
+    resize_mesh(b, checkpoint, count);
+    sets.insert(sets.begin(), mesh_set(b));
+  }
   restore_columns(points, body, sets);
   for (std::size_t p = first; p < grid_.patches().size(); ++p)
     if (!grid_.patches()[p].points.empty()) grid_.patches()[p].points.pad(columns.mass);
+  if (is_mesh(b)) restore_mesh(b, checkpoint);
   for (RigidBody& rigid : rigid_.all()) {
     if (rigid.options().body != b) continue;
     const std::vector<double>& state = demand(checkpoint, blob_name(body, "rigid")).doubles;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "krater/core/errors.hpp"
+#include "krater/kinematics/mpm/migrate.hpp"
 #include "krater/simulation/material_plan.hpp"
 #include "krater/simulation/simulation.hpp"
 
@@ -70,9 +71,18 @@ void Simulation::place_meshes() {
                      .barotropic = kernel_data_[b].heat_floor == nullptr,
                      .held = body.options().mesh->hourglass,
                      .reference = body.options().mesh->reference,
-                     .erosion = body.options().mesh->erosion};
+                     .erosion = body.options().mesh->erosion,
+                     .points = {}};
+    if (body.options().becomes_points())
+      made.points = {kernel_data_[b].columns,
+                     body.layout().optional<field::ReferencePosition>().offset, geometry_.h,
+                     Support::moment * geometry_.h * geometry_.h};
     made.velocities = velocities_of(body.options(), made.mesh);
     mesh_->add(std::move(made));
+    if (!body.options().becomes_points()) continue;
+    const PointSet elements = mesh_->set(mesh_->set_count() - 1);
+    for (int i = 0; i < elements.count(); ++i)
+      step_->expect_mass(elements.points->at(kernel_data_[b].columns.mass, i) / kPartsOfElement);
   }
   if (!mesh_) return;
   mesh_->start();
@@ -90,26 +100,56 @@ void Simulation::look_at_elements() {
   watch_elements(*this, warnings_);
 }
 
+void Simulation::adopt_converted() {
+  const std::vector<ConvertedPoints> all = mesh_->take_converted();
+  if (all.empty()) return;
+  for (const ConvertedPoints& points : all) {
+    const auto b = static_cast<std::size_t>(points.body);
+    const PointColumns& c = kernel_data_[b].columns;
+    audit_.book_converted(points.heat, points.barotropic);
+    audit_.book_removed(adopt(grid_, points.body, points.records, boundary_, c));
+    // Their own limit is known after their first step.
+    const auto width = static_cast<std::size_t>(c.stride / kLanes);
+    double fastest = 0;
+    for (std::size_t k = 0; k < points.records.size(); k += width)
+      for (int a = 0; a < geometry_.dimension; ++a)
+        fastest = std::max(
+            fastest,
+            std::abs(points.records[k + static_cast<std::size_t>(c.velocity / kLanes + a)]));
+    const double rate = (2 * fastest + bodies_[b]->signal_speed()) * geometry_.inv_h;
+    if (rate > limit_.rate) limit_ = {rate, 1, points.body, points.records.front()};
+  }
+  grid_.rebuild(true);
+  step_->relink();
+}
+
 Totals Simulation::totals_of_mesh(int s) const {
   const NodeTotals nodes = mesh_->totals(s);
   return {1.0 * set(s).count(),      nodes.mass,     nodes.kinetic,
           mesh_->internal_energy(s), nodes.momentum, nodes.angular_momentum};
 }
 
+int Simulation::mesh_set(int body) const {
+  int s = 0;
+  while (mesh_->set(s).body != body) ++s;
+  return s;
+}
+
+/// Room for its elements; `points`: those that elements became.
+void Simulation::resize_mesh(int b, const Checkpoint& checkpoint, std::uint64_t points) {
+  const std::string& name = bodies_[static_cast<std::size_t>(b)]->name();
+  const CheckpointBlob* all = checkpoint.find("bodies/" + name + "/points");
+  if (all == nullptr || all->shape.size() != 2 || all->shape[1] < points ||
+      !mesh_->set_count(mesh_set(b), all->shape[1] - points))
+    throw InputError("checkpoint: body '" + name + "' has another mesh there");
+}
+
 void Simulation::restore_mesh(int b, const Checkpoint& checkpoint) {
-  const Body& body = *bodies_[static_cast<std::size_t>(b)];
-  const CheckpointBlob* points = checkpoint.find("bodies/" + body.name() + "/points");
-  const CheckpointBlob* mesh = checkpoint.find("bodies/" + body.name() + "/mesh");
-  const std::vector<int> sets = sets_of(b);
-  const InputError other{"checkpoint: body '" + body.name() + "' has another mesh there"};
-  if (points == nullptr || mesh == nullptr || points->shape.size() != 2) throw other;
-  for (const int s : sets)
-    if (!mesh_->set_count(s, points->shape[1])) throw other;
-  restore_columns(*points, body, sets);
-  for (const int s : sets) {
-    if (!mesh_->set_state(s, mesh->doubles)) throw other;
-    mesh_->pad(s);
-  }
+  const std::string& name = bodies_[static_cast<std::size_t>(b)]->name();
+  const CheckpointBlob* mesh = checkpoint.find("bodies/" + name + "/mesh");
+  if (mesh == nullptr || !mesh_->set_state(mesh_set(b), mesh->doubles))
+    throw InputError("checkpoint: body '" + name + "' has another mesh there");
+  mesh_->pad(mesh_set(b));
   mesh_->find_forces();
 }
 

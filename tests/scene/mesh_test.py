@@ -214,6 +214,26 @@ def main():
             corners, ids = file["bar/connectivity"][()], file["bar/id"][()]
         check(len(corners) == len(ids) == told["points"] and (np.diff(ids) > 0).all(),
               "the last frame has the elements that are left")
+        bar.write_text(BAR + "contact: {friction: 0}\n", encoding="utf-8")
+        becomes = "bodies.bar.kinematics={lagrangian_mesh: {element: 1.6 mm, failure: {action: convert, when: {%s}}}}"
+        done = run("converted", becomes % "plastic_strain: 0.2", scene=bar)
+        told = summary("converted")
+        check(done.returncode == 0 and "elements became points" in done.text
+              and told["audit"]["converted_by"]["plastic_strain"] == told["audit"]["converted_elements"] > 0
+              and told["audit"]["removed_mass"] == 0, "elements become points", done.text[-300:])
+        frame = sorted(pathlib.Path("converted", "frames").glob("*.h5"))[-1]
+        with h5py.File(frame) as file:
+            corners, ids, points = (file[name][()] for name in ("bar/connectivity", "bar/id", "bar_points/id"))
+        whole = len(ids) + told["audit"]["converted_elements"]
+        check(len(corners) == len(ids) > 0 and (ids < whole).all()
+              and len({(number - whole) // 64 for number in points}) == whole - len(ids),
+              "frames have the elements that are left and the points of the others")
+        done = run("refused", becomes % "failed: true", "materials.copper.spall={strength: 1 GPa, action: fail}",
+                   "materials.copper.failure={action: remove}", scene=bar)
+        check(done.returncode == 2 and "action: erode" in done.text, "refused: points of what removes", done.text)
+        bar.write_text(BAR, encoding="utf-8")
+        done = run("refused", becomes % "plastic_strain: 0.2", scene=bar)
+        check(done.returncode == 2 and "by contact only" in done.text, "refused: conversion without contact", done.text)
         two = BAR.replace("measures:", "  other: {material: copper, shape: {cylinder: {radius: 1 mm, height: 1 mm, base: "
                                        "[0, 33 mm]}}}\nmeasures:").replace("max: [12 mm, 35.2 mm]", "max: [12 mm, 40 mm]")
         bar.write_text(two, encoding="utf-8")

@@ -51,7 +51,8 @@ MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& ove
                    .q_quad = plan.q_quad,
                    .held = held,
                    .reference = reference,
-                   .erosion = {}};
+                   .erosion = {},
+                   .points = {}};
   for (const Triple& x : mesh.nodes)
     made.velocities.push_back(body.velocity ? (*body.velocity)(x, x, 0) : Triple{});
   step_->add(std::move(made));

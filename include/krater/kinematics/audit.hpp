@@ -67,6 +67,7 @@ struct Audit {
   double peak_energy = 0;       ///< greatest kinetic + internal + removed energy so far [J]
   double peak_energy_time = 0;  ///< its integral over time [J s]
   double stabilisation = 0;     ///< heat of what holds zero-energy modes of particles [J]
+  double conversion_heat = 0;   ///< of the motion of elements that became points [J]
   double most_folded = 0;       ///< folded elements, the most at a row of the history
 
   /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
@@ -95,6 +96,13 @@ struct Audit {
   /// Body forces on points, from outside, during dt.
   void book_body_force(const std::array<double, 3>& force, double dt) {
     for (std::size_t a = 0; a < 3; ++a) external_impulse[a] += force[a] * dt;
+  }
+  /// Motion of elements that became heat of the points they became; `unfelt`: by their pressure.
+  void book_converted(double heat, bool is_unfelt) {
+    conversion_heat += heat;
+    kinetic -= heat;
+    internal += heat;
+    if (is_unfelt) unfelt += heat;
   }
   /// Energy and momentum that left with removed points.
   void book_removed(const Removed& gone);
@@ -182,6 +190,7 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("peak_energy", a.peak_energy);
   visit("peak_energy_time", a.peak_energy_time);
   visit("stabilisation", a.stabilisation);
+  visit("conversion_heat", a.conversion_heat);
   visit("most_folded", a.most_folded);
 }
 

@@ -104,6 +104,8 @@ struct BodyOptions {
   std::optional<SphOptions> sph;                  ///< of particles; neither: of material points
   Motion motion = Motion::deformable;
   bool material_points() const { return !mesh && !sph; }
+  /// Its elements may: they have the columns of points too.
+  bool becomes_points() const { return mesh && mesh->converts; }
   bool rigid() const { return motion != Motion::deformable; }
 };
 

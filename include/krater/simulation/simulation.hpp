@@ -96,6 +96,7 @@ class Simulation {
     return s < mesh_sets() ? mesh_->set(s) : sph_->set(s - mesh_sets());
   }
   const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
+  bool is_mesh_set(int s) const { return s < mesh_sets(); }
   bool is_mesh(int body) const {
     return bodies_[static_cast<std::size_t>(body)]->options().mesh.has_value();
   }
@@ -132,6 +133,9 @@ class Simulation {
   void place_meshes();
   Totals totals_of_mesh(int s) const;
   std::vector<int> sets_of(int body) const;
+  int mesh_set(int body) const;
+  void adopt_converted();
+  void resize_mesh(int body, const Checkpoint& checkpoint, std::uint64_t points);
   void restore_mesh(int body, const Checkpoint& checkpoint);
   std::unique_ptr<NodeLoads> make_loads();
   Totals totals_of_set(int s) const;

@@ -27,8 +27,10 @@ struct MeshStep::Elements {
   // Of a body that erodes:
   ElementNeighbours first;
   std::vector<double> orphaned;  ///< per node: mass of its eroded elements [kg]
-  Eroded eroded;
+  Eroded eroded;                 ///< or converted
+  ConvertedPoints converted;     ///< in the last step
   bool erodes() const { return made_of.erosion.any(); }
+  bool converts() const { return made_of.points.has_value(); }
 
   std::size_t corner_count() const { return static_cast<std::size_t>(made_of.mesh.corners()); }
   /// What elements keep from step to step beside their columns, and its length.
@@ -69,6 +71,8 @@ struct MeshStep::Elements {
 std::array<double, kLanes> least_corners(const MeshStep::Elements& body, std::size_t group);
 /// The exposed faces of what there is now.
 std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& body);
+/// Element i as points, among those `converted`.
+void convert_element(MeshStep::Elements& body, int i, bool axisymmetric);
 /// Which elements there are, and where, from their numbers, which were put back.
 void find_again(MeshStep::Elements& body);
 

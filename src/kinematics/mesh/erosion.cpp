@@ -88,22 +88,48 @@ std::vector<Gone> find_eroded(const MeshStep::Elements& b) {
   return out;
 }
 
+/// Masses of the nodes, of the elements that are left; summed again, for a difference would leave
+/// round-off where none is left.
+void weigh_nodes(MeshStep::Elements& b) {
+  const std::size_t corners = b.corner_count();
+  for (std::size_t n = 0; n < b.node_count; ++n) b.node(n)[3] = 0;
+  for (std::size_t id = 0; id < b.first.alive.size(); ++id)
+    for (std::size_t I = 0; b.first.alive[id] && I < corners; ++I)
+      b.node(static_cast<std::size_t>(b.first.corners[id * corners + I]))[3] +=
+          b.first.shares[id * corners + I];
+  for (std::size_t n = 0; n < b.node_count; ++n)
+    if (b.node(n)[3] == 0) std::fill_n(b.node(n) + 4, 4, 0.0);
+}
+
 /// What nodes have, when elements have changed; in an order that does not depend on which went
 /// first.
 void find_nodes_again(MeshStep::Elements& b) {
   const std::size_t corners = b.corner_count();
   std::fill(b.orphaned.begin(), b.orphaned.end(), 0.0);
-  for (std::size_t id = 0; id < b.first.alive.size(); ++id)
+  for (std::size_t id = 0; !b.converts() && id < b.first.alive.size(); ++id)
     for (std::size_t I = 0; !b.first.alive[id] && I < corners; ++I)
       b.orphaned[static_cast<std::size_t>(b.first.corners[id * corners + I])] +=
           b.first.shares[id * corners + I];
+  if (b.converts()) weigh_nodes(b);
   pad_lanes(b);
   b.corners_of = node_corners(b.made_of.mesh);
   b.surface.clear();
 }
 
+void book_eroded(const MeshStep::Elements& b, int i, Audit& audit) {
+  Removed energy;
+  energy.internal = b.elements.at(b.columns.mass, i) * b.elements.at(b.columns.energy, i) +
+                    b.hourglass_energy.data()[i];
+  energy.count = energy.failed = 1;
+  audit.book_removed(energy);
+  if (!b.made_of.barotropic) return;
+  audit.unfelt -= energy.internal;
+  audit.unfelt_removed += energy.internal;
+}
+
 /// From the last on, so that those to come keep their places.
-void take_out(MeshStep::Elements& b, const std::vector<Gone>& gone, Audit& audit) {
+void take_out(MeshStep::Elements& b, const std::vector<Gone>& gone, bool axisymmetric,
+              Audit& audit) {
   const std::size_t corners = b.corner_count();
   std::vector<std::int32_t>& mesh = b.made_of.mesh.elements;
   for (auto at = gone.rbegin(); at != gone.rend(); ++at) {
@@ -111,15 +137,10 @@ void take_out(MeshStep::Elements& b, const std::vector<Gone>& gone, Audit& audit
     b.eroded.*at->cause += 1;
     const auto id = static_cast<std::size_t>(b.elements.at(b.columns.id, i));
     b.first.alive[id] = false;
-    Removed energy;
-    energy.internal = b.elements.at(b.columns.mass, i) * b.elements.at(b.columns.energy, i) +
-                      b.hourglass_energy.data()[i];
-    energy.count = energy.failed = 1;
-    audit.book_removed(energy);
-    if (b.made_of.barotropic) {
-      audit.unfelt -= energy.internal;
-      audit.unfelt_removed += energy.internal;
-    }
+    if (b.converts())
+      convert_element(b, i, axisymmetric);
+    else
+      book_eroded(b, i, audit);
     b.elements.copy(last, i);
     copy_element(b, last, i);
     b.elements.truncate(last);
@@ -180,7 +201,7 @@ void MeshStep::erode() {
     lose_heat(*body);
     const std::vector<Gone> gone = find_eroded(*body);
     if (gone.empty()) continue;
-    take_out(*body, gone, audit_);
+    take_out(*body, gone, domain_.frame == Frame::axisymmetric, audit_);
     any = true;
   }
   if (!any) return;
@@ -195,19 +216,32 @@ void MeshStep::lose_heat(const Elements& b) {
     audit_.removed_energy += b.orphaned[n] * b.nodes.data()[kNode * n + 7];
 }
 
-Eroded MeshStep::eroded() const {
+Eroded MeshStep::taken_out(bool converted) const {
   Eroded sum;
   for (const auto& b : bodies_)
-    for (const auto part : Eroded::parts) sum.*part += b->eroded.*part;
+    for (const auto part : Eroded::parts)
+      if (b->converts() == converted) sum.*part += b->eroded.*part;
   return sum;
 }
 
-std::string describe_eroded(const Eroded& eroded) {
+Eroded MeshStep::eroded() const { return taken_out(false); }
+Eroded MeshStep::converted() const { return taken_out(true); }
+
+namespace {
+
+std::string describe(const Eroded& eroded, const char* what) {
   std::string causes;
   for (std::size_t k = 0; k < Eroded::parts.size(); ++k)
     if (const double count = eroded.*Eroded::parts[k]; count > 0)
       causes += fmt::format("{}{:.0f} by {}", causes.empty() ? "" : ", ", count, Eroded::names[k]);
-  return fmt::format("{:.0f} elements were eroded, as the scene asks: {}", eroded.all(), causes);
+  return fmt::format("{:.0f} elements {}, as the scene asks: {}", eroded.all(), what, causes);
+}
+
+}  // namespace
+
+std::string describe_eroded(const Eroded& eroded) { return describe(eroded, "were eroded"); }
+std::string describe_converted(const Eroded& converted) {
+  return describe(converted, "became points");
 }
 
 bool MeshStep::set_count(int s, std::size_t elements) {

@@ -50,30 +50,65 @@ Functions functions_at(int dim, const std::array<double, 3>& xi) {
 
 }  // namespace
 
-std::vector<double> corner_volumes(const Mesh& mesh, bool axisymmetric) {
+namespace {
+
+/// Adds int N_I dV of the part about `centre`, of half-widths `half`, both in [-1, 1]^dim.
+void add_part(const Mesh& mesh, std::size_t element, bool axisymmetric, const Vector3& centre,
+              const Vector3& half, double* out) {
   const int dim = mesh.dimension;
   const auto corners = static_cast<std::size_t>(mesh.corners());
   const double g = 1 / std::sqrt(3.0);
-  std::vector<Functions> points;
-  for (int q = 0; q < corner_nodes(dim); ++q)
-    points.push_back(functions_at(dim, {g * corner_sign(dim, q, 0), g * corner_sign(dim, q, 1),
-                                        dim == 3 ? g * corner_sign(dim, q, 2) : 0}));
+  for (int q = 0; q < corner_nodes(dim); ++q) {
+    std::array<double, 3> xi{};
+    double share = 1;
+    for (int k = 0; k < dim; ++k) {
+      const auto a = static_cast<std::size_t>(k);
+      xi[a] = centre[a] + half[a] * (g * corner_sign(dim, q, k));
+      share *= half[a];
+    }
+    const Functions at = functions_at(dim, xi);
+    Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+    J.topLeftCorner(dim, dim).setZero();
+    double r = 0;
+    for (std::size_t I = 0; I < corners; ++I) {
+      const Triple& x = mesh.corner(element, I);
+      r += at.value[I] * x[0];
+      for (int k = 0; k < dim; ++k)
+        for (int a = 0; a < dim; ++a)
+          J(k, a) += at.slope[I][static_cast<std::size_t>(k)] * x[static_cast<std::size_t>(a)];
+    }
+    const double volume = J.determinant() * (axisymmetric ? 2 * std::numbers::pi * r : 1.0) * share;
+    for (std::size_t I = 0; I < corners; ++I) out[I] += at.value[I] * volume;
+  }
+}
+
+}  // namespace
+
+std::array<double, 8> corner_functions(int dimension, const std::array<double, 3>& xi) {
+  return functions_at(dimension, xi).value;
+}
+
+std::vector<double> part_volumes(const Mesh& mesh, std::size_t element, bool axisymmetric,
+                                 const std::array<int, 3>& counts) {
+  const auto corners = static_cast<std::size_t>(mesh.corners());
+  std::vector<double> out;
+  Vector3 centre{}, half{};
+  for (std::size_t a = 0; a < 3; ++a) half[a] = 1.0 / counts[a];
+  for (int k = 0; k < counts[2]; ++k)
+    for (int j = 0; j < counts[1]; ++j)
+      for (int i = 0; i < counts[0]; ++i) {
+        centre = {(2 * i + 1) * half[0] - 1, (2 * j + 1) * half[1] - 1, (2 * k + 1) * half[2] - 1};
+        out.resize(out.size() + corners);
+        add_part(mesh, element, axisymmetric, centre, half, out.data() + out.size() - corners);
+      }
+  return out;
+}
+
+std::vector<double> corner_volumes(const Mesh& mesh, bool axisymmetric) {
+  const auto corners = static_cast<std::size_t>(mesh.corners());
   std::vector<double> out(mesh.elements.size(), 0.0);
   for (std::size_t e = 0; e < mesh.element_count(); ++e)
-    for (const Functions& at : points) {
-      Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-      J.topLeftCorner(dim, dim).setZero();
-      double r = 0;
-      for (std::size_t I = 0; I < corners; ++I) {
-        const Triple& x = mesh.nodes[static_cast<std::size_t>(mesh.elements[e * corners + I])];
-        r += at.value[I] * x[0];
-        for (int k = 0; k < dim; ++k)
-          for (int a = 0; a < dim; ++a)
-            J(k, a) += at.slope[I][static_cast<std::size_t>(k)] * x[static_cast<std::size_t>(a)];
-      }
-      const double volume = J.determinant() * (axisymmetric ? 2 * std::numbers::pi * r : 1.0);
-      for (std::size_t I = 0; I < corners; ++I) out[e * corners + I] += at.value[I] * volume;
-    }
+    add_part(mesh, e, axisymmetric, {0, 0, 0}, {1, 1, 1}, out.data() + e * corners);
   return out;
 }
 

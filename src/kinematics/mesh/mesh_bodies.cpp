@@ -64,6 +64,9 @@ void fill_record(const ElementBody& made_of, const ElementColumns& c, std::size_
   put(c.mass, made_of.density * volume);
   for (int a = 0; a < mesh.dimension; ++a)
     put(c.position + kLanes * a, centre[static_cast<std::size_t>(a)]);
+  if (const Column* X = made_of.layout->find(field::ReferencePosition::info.name))
+    for (int a = 0; a < mesh.dimension; ++a)
+      put(X->offset + kLanes * a, centre[static_cast<std::size_t>(a)]);
   if (const Column* F = made_of.layout->find(field::DeformationGradient::info.name))
     for (int k = 0; k < 9; k += 4) put(F->offset + kLanes * k, 1.0);
 }
@@ -211,7 +214,7 @@ std::vector<std::array<std::int32_t, 4>> MeshStep::meeting_faces(int s) const {
       if (n >= 0) planes &= body.on_plane[static_cast<std::size_t>(n)];
     if (planes == 0) out.push_back(face);
   }
-  for (std::size_t n = 0; body.erodes() && n < body.node_count; ++n)
+  for (std::size_t n = 0; body.erodes() && !body.converts() && n < body.node_count; ++n)
     if (body.corners_of.first[n] == body.corners_of.first[n + 1])
       out.push_back({static_cast<std::int32_t>(n), -1, -1, -1});
   return out;

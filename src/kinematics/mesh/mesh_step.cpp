@@ -167,7 +167,9 @@ double MeshStep::force(double dt) {
   over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums&) {
     for (std::size_t n = first; n < last; ++n) {
       const Triple f = b.force_on(n);
-      for (std::size_t a = 0; a < 3; ++a) b.change(n)[a] = dt / b.node(n)[3] * f[a];
+      // A node whose elements became points has no mass.
+      const double mass = b.node(n)[3], per_mass = mass > 0 ? dt / mass : 0;
+      for (std::size_t a = 0; a < 3; ++a) b.change(n)[a] = per_mass * f[a];
       b.node(n)[7] = 0;
     }
   });

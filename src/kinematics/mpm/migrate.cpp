@@ -241,21 +241,53 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
   return drop_empty(grid) || !missing.empty();
 }
 
+namespace {
+
+using RecordsByBlock = std::map<BlockKey, std::vector<double>>;
+
+void sort_by_blocks(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+                    const PointColumns& c, RecordsByBlock& sorted, Removed& removed) {
+  for (int i = 0; i < patch.points.count(); ++i) {
+    if (!keep_inside(patch, geometry, boundary, c, i, removed)) {
+      tally(patch, c, geometry, i, removed);
+      continue;
+    }
+    std::vector<double>& records = sorted[block_of_point(patch, geometry, c, i)];
+    patch.points.copy_out(i, records);
+  }
+}
+
+}  // namespace
+
+Removed adopt(BlockGrid& grid, int body, const std::vector<double>& records,
+              const BoundarySet& boundary, const PointColumns& c) {
+  const auto width = static_cast<std::size_t>(c.stride / kLanes);
+  Patch arriving;
+  arriving.body = body;
+  arriving.points = PointStore{c.stride};
+  for (std::size_t k = 0; k < records.size(); k += width) arriving.append(records.data() + k);
+  Removed removed;
+  RecordsByBlock sorted;
+  sort_by_blocks(arriving, grid.geometry(), boundary, c, sorted, removed);
+  std::vector<BlockKey> missing;
+  for (const auto& [key, unused] : sorted)
+    if (grid.find_patch(key, body) < 0) missing.push_back(key);
+  for (const BlockKey& key : missing) grid.add_patch(key, body, c.stride);
+  grid.rebuild(false);
+  for (const auto& [key, points] : sorted) {
+    Patch& patch = grid.patches()[static_cast<std::size_t>(grid.find_patch(key, body))];
+    for (std::size_t k = 0; k < points.size(); k += width) patch.append(points.data() + k);
+    patch.points.pad(c.mass);
+  }
+  return removed;
+}
+
 Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
                      const PointColumns& c) {
   Removed removed;
-  std::map<BlockKey, std::vector<double>> moved;
-  for (Patch& patch : grid.patches()) {
-    if (patch.body != body) continue;
-    for (int i = 0; i < patch.points.count(); ++i) {
-      if (!keep_inside(patch, grid.geometry(), boundary, c, i, removed)) {
-        tally(patch, c, grid.geometry(), i, removed);
-        continue;
-      }
-      std::vector<double>& records = moved[block_of_point(patch, grid.geometry(), c, i)];
-      patch.points.copy_out(i, records);
-    }
-  }
+  RecordsByBlock moved;
+  for (Patch& patch : grid.patches())
+    if (patch.body == body) sort_by_blocks(patch, grid.geometry(), boundary, c, moved, removed);
   grid.drop_patches(body);
   const auto width = static_cast<std::size_t>(c.stride / kLanes);
   for (const auto& [key, records] : moved) {

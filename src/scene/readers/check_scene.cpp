@@ -111,7 +111,9 @@ void check_contact(Reading& reading) {
           "contact: {friction: 0} lets them push, slide and part");
     return;
   }
-  if (scene.bodies.size() < 2)
+  const bool becomes_points = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                          [](const BodyOptions& b) { return b.becomes_points(); });
+  if (scene.bodies.size() < 2 && !becomes_points)
     scene.notes.push_back("contact: there is one body; a body has no contact with itself");
   if (scene.method.transfer == Transfer::xpic)
     fail("contact",

@@ -40,12 +40,13 @@ void read_hourglass(Block& mesh, HourglassOptions& out, Reading& reading) {
   mesh.record("hourglass", block.finish());
 }
 
-/// `failure: {action: erode, when: {...}}`.
-void read_erosion(Block& mesh, ErosionOptions& out, Reading& reading) {
+/// `failure: {action: erode | convert, when: {...}}`.
+void read_erosion(Block& mesh, MeshOptions& options, Reading& reading) {
   const Node* node = mesh.find("failure");
   if (node == nullptr) return;
+  ErosionOptions& out = options.erosion;
   Block block{node, node->path, *node, reading.problems};
-  block.choice<int>("action", {{"erode", 0}}, 0);
+  options.converts = block.choice<bool>("action", {{"erode", false}, {"convert", true}}, false);
   if (const Node* inner = block.require("when", "for instance when: {plastic_strain: 1.0}")) {
     Block when{inner, inner->path, *inner, reading.problems};
     const auto limit = [&](const char* name, const char* unit, const char* meaning, double& to) {
@@ -104,7 +105,7 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
         "reference",
         {{"current", ElementReference::current}, {"initial", ElementReference::initial}},
         ElementReference::current);
-    read_erosion(mesh, body.mesh->erosion, reading);
+    read_erosion(mesh, *body.mesh, reading);
     block.record("lagrangian_mesh", mesh.finish());
   }
   return block.finish();
@@ -161,8 +162,19 @@ void check_mesh(BodyOptions& body, const Node& node, Reading& reading) {
   if (const Node* points = node.find("points"))
     fail(*points, only + "has elements, no points: leave this key out");
   if (body.material >= 0 &&
-      scene.materials[static_cast<std::size_t>(body.material)].failure == FailureAction::remove)
+      scene.materials[static_cast<std::size_t>(body.material)].failure == FailureAction::remove) {
     body.mesh->erosion.failed = true;
+    if (body.mesh->converts)
+      fail(*node.find("kinematics"),
+           only +
+               "whose elements become points has a material that removes what fails: leave out "
+               "failure: remove of its material, or say action: erode");
+  }
+  for (const BodyOptions& other : scene.bodies)
+    if (body.mesh->converts && other.name == body.name + kPointsOf)
+      fail(*node.find("kinematics"),
+           only + "whose elements become points writes these as '" + other.name +
+               "', which is the name of another body: rename one of the two");
   if (body.rigid()) fail(*node.find("rigid"), only + "cannot be rigid: leave one of the two out");
   const Box box = intersection(body.solid->extent(scene.frame), {scene.grid.min, scene.grid.max},
                                dimension(scene.frame));
@@ -201,7 +213,7 @@ void check_alone(const Node& place, Reading& reading) {
     reading.problems.add(place.file, place.line, place.path, "kinematics lagrangian_mesh " + what);
   };
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                  [](const BodyOptions& body) { return !body.mesh; }))
+                  [](const BodyOptions& body) { return !body.mesh || body.mesh->converts; }))
     check_among_points(fail, scene);
   if (scene.method.reference != Reference::current)
     fail(

@@ -2,6 +2,7 @@
 #pragma once
 /// \file kinematics/mesh/mesh.hpp
 /// What a step needs of a mesh (geometry/meshes/mesh.hpp): whose corner a node is, and volumes.
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,5 +22,13 @@ NodeCorners node_corners(const Mesh& mesh);
 /// quadrilaterals and for hexahedra with plane or bilinear faces. They sum to the volume and keep
 /// its centre.
 std::vector<double> corner_volumes(const Mesh& mesh, bool axisymmetric);
+
+/// The same of the parts of one element, cut into counts[k] along its axis k: part after part, the
+/// first axis fastest; `counts` of an axis that is not there is 1.
+std::vector<double> part_volumes(const Mesh& mesh, std::size_t element, bool axisymmetric,
+                                 const std::array<int, 3>& counts);
+
+/// N_I of an element at a point of [-1, 1]^dim.
+std::array<double, 8> corner_functions(int dimension, const std::array<double, 3>& xi);
 
 }  // namespace krater

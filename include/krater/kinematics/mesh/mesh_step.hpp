@@ -20,6 +20,7 @@
 #include "krater/geometry/frame.hpp"
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/kinematics.hpp"
+#include "krater/kinematics/mesh/conversion.hpp"
 #include "krater/kinematics/mesh/erosion.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
 #include "krater/kinematics/mesh/mesh_health.hpp"
@@ -42,6 +43,7 @@ struct ElementBody {
   HourglassOptions held;
   ElementReference reference = ElementReference::current;
   ErosionOptions erosion;
+  std::optional<PointsOfElements> points;  ///< what its elements become; none: they are eroded
 };
 
 /// The columns that elements need beside those of their material: before and after its stages are
@@ -99,8 +101,11 @@ class MeshStep final : public Kinematics {
   /// Faces that others may touch (exposed_faces()): not those that lie on a plane of symmetry. A
   /// node without elements is one of one corner.
   std::vector<std::array<std::int32_t, 4>> meeting_faces(int s) const;
-  std::size_t shape_changes() const { return shape_changes_; }  ///< how often elements were eroded
+  std::size_t shape_changes() const { return shape_changes_; }  ///< how often elements were taken
   Eroded eroded() const;                                        ///< since the start, by cause
+  Eroded converted() const;  ///< elements that became points, likewise
+  /// The points that elements became in the last step, for whoever moves points.
+  std::vector<ConvertedPoints> take_converted();
   NodeTotals totals(int s) const;
   double internal_energy(int s) const;  ///< hourglass energy included [J]
   /// Nodes, and what elements hold beside their columns; find_forces() after it was put back.
@@ -138,6 +143,7 @@ class MeshStep final : public Kinematics {
   void note_planes(Elements& body) const;
   void make_chunks();
   void erode();
+  Eroded taken_out(bool converted) const;
   void lose_heat(const Elements& body);
   template <class Work>
   void over_nodes(const Work& work);

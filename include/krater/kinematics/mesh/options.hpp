@@ -18,7 +18,8 @@ struct HourglassOptions {
   double stiffness = 0.05;  ///< kappa
 };
 
-/// When an element is taken out (kinematics/mesh/erosion.hpp): any of these.
+/// When an element is taken out (kinematics/mesh/erosion.hpp), or becomes points (conversion.hpp):
+/// any of these.
 struct ErosionOptions {
   bool failed = false;  ///< by the damage or spall of its material
   double plastic_strain = std::numeric_limits<double>::infinity();
@@ -32,6 +33,9 @@ struct ErosionOptions {
   }
 };
 
+/// What frames call the points that a body's elements became: NAME_points.
+inline constexpr const char* kPointsOf = "_points";
+
 /// Where gradients are taken (kinematics/mesh/placed_element.hpp).
 enum class ElementReference { current, initial };
 
@@ -41,6 +45,7 @@ struct MeshOptions {
   HourglassOptions hourglass;
   ElementReference reference = ElementReference::current;
   ErosionOptions erosion;
+  bool converts = false;  ///< what erosion takes out becomes points
 };
 
 }  // namespace krater

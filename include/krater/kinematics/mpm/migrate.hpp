@@ -20,6 +20,11 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
 /// changed (relink!).
 bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
 
+/// New points of `body`, records of stride/8 doubles, to the blocks of their positions; what lies
+/// beyond an open side is removed at once. Relink afterwards.
+Removed adopt(BlockGrid& grid, int body, const std::vector<double>& records,
+              const BoundarySet& boundary, const PointColumns& columns);
+
 /// Points of `body` to the blocks of their present positions, however far that is, and out of the
 /// domain through its open sides; for a new reference configuration. Order: by id-preserving old
 /// order, so the bits do not depend on threads. Relink afterwards.

@@ -7,6 +7,7 @@
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
 /// the projection. usf: stress from v- first, of the motion of the step before. xpic(m): grid
 /// velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
+#include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <memory>
@@ -86,6 +87,11 @@ class MpmStep final : public Kinematics {
   void set_last_step(double dt) { last_step_ = dt; }
   /// Smallest mass of a point, once for all [kg].
   void set_smallest_mass(double m) { node_settings_.smallest_mass = 1e-15 * m; }
+  /// Or lighter ones may come.
+  void expect_mass(double m) {
+    double& least = node_settings_.smallest_mass;
+    least = least > 0 ? std::min(least, 1e-15 * m) : 1e-15 * m;
+  }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
   void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 
