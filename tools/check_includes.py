@@ -24,7 +24,7 @@ LAYERS = {
     "kinematics/mesh": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "kinematics/sph": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "output": {"core", "points", "grid", "geometry"},
-    "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics/mpm", "kinematics/mesh",
+    "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics", "kinematics/mpm", "kinematics/mesh",
               "kinematics/sph", "output"},
 }
 for folder, also in {"simulation": {"scene", "kinematics"}, "measure": {"simulation"}, "point_driver": {"simulation"},

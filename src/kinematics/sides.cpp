@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace krater {
 
@@ -12,11 +11,11 @@ Triple PushingSide::push(const Triple& v, double missing, int dimension) const {
   out[axis] = inwards * missing;
   double squares = 0;
   for (std::size_t t = 0; t < static_cast<std::size_t>(dimension); ++t)
-    if (t != axis) squares += v[t] * v[t];
+    if (t != axis) squares += (v[t] - velocity[t]) * (v[t] - velocity[t]);
   const double slip = std::sqrt(squares);
   const double share = sticky ? 1 : slip > 0 ? std::min(1.0, friction * missing / slip) : 0;
   for (std::size_t t = 0; t < static_cast<std::size_t>(dimension); ++t)
-    if (t != axis) out[t] = -share * v[t];
+    if (t != axis) out[t] = -share * (v[t] - velocity[t]);
   return out;
 }
 
@@ -25,11 +24,11 @@ std::vector<PushingSide> pushing_sides(const DomainSides& domain) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(domain.frame)); ++a)
     for (std::size_t s = 0; s < 2; ++s) {
       const Boundary& side = domain.sides[a][s];
-      if (side.drives())
-        throw std::invalid_argument("a side of the domain that drives such a body");
       const bool sticky = side.kind == BoundaryKind::sticky;
-      if (sticky || side.kind == BoundaryKind::wall)
-        out.push_back({a, s == 0 ? 1.0 : -1.0, domain.planes[a][s], side.friction, sticky});
+      if (!sticky && !side.pushes()) continue;
+      const double plane = domain.planes[a][s];
+      out.push_back({a, s == 0 ? 1.0 : -1.0, plane, side.friction, sticky, plane,
+                     side.drives() ? side.velocity : Triple{}});
     }
   return out;
 }

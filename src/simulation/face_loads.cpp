@@ -41,7 +41,9 @@ bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, 
 namespace {
 
 bool marks_any(const Simulation& sim, int face) {
+  if (sim.mesh() != nullptr && sim.mesh()->feels(static_cast<std::size_t>(face))) return true;
   for (int s = 0; s < sim.set_count(); ++s) {
+    if (sim.is_mesh_set(s)) continue;
     const std::vector<int> loads = loads_of(sim.scene(), sim.set(s).body);
     const auto at = std::find(loads.begin(), loads.end(), face);
     if (at == loads.end()) continue;

@@ -121,8 +121,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
                                    kernel_data_, audit_, *loads_, impulses_, carrier_kernels_.get(),
                                    kernel_shape(scene.method.shape)});
   place_rigid_bodies();
-  require_faces(*this);
   place_meshes();
+  require_faces(*this);
   place_particles();
   find_movers();
   choose_first_step();
@@ -294,6 +294,7 @@ void Simulation::step(double until) {
   rigid_.set_time(time());
   if (boundary_.set_time(time())) step_->relink();
   loads_->set_time(time());
+  if (mesh_) mesh_->set_time(time());
   const Triple body_force = scene_.body_force ? apply_body_force() : Triple{};
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;

@@ -8,6 +8,7 @@
 
 #include "kinematics/mesh/elements.hpp"
 #include "krater/core/errors.hpp"
+#include "krater/kinematics/mesh/mesh_loads.hpp"
 
 namespace krater {
 
@@ -160,7 +161,8 @@ MeshStep::MeshStep(const DomainSides& domain, const MeshKernels& kernels, Audit&
       dim_{dimension(domain.frame)},
       pushing_{pushing_sides(domain)},
       kernels_{kernels},
-      audit_{audit} {}
+      audit_{audit},
+      loads_{std::make_unique<MeshLoads>(LoadOptions{}, BodyForce{}, domain.frame)} {}
 
 MeshStep::~MeshStep() = default;
 

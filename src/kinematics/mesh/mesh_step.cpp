@@ -6,6 +6,7 @@
 
 #include "kinematics/mesh/elements.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/kinematics/mesh/mesh_loads.hpp"
 
 namespace krater {
 
@@ -143,6 +144,7 @@ void MeshStep::over_nodes(const Work& work) {
     });
     for (const WallSums& s : sums) {
       audit_.wall_heat += s.heat;
+      audit_.wall_work += s.work;
       for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += s.impulse[a];
       note_sides(*body, s);
     }
@@ -173,7 +175,20 @@ double MeshStep::force(double dt) {
       b.node(n)[7] = 0;
     }
   });
+  for (auto& b : bodies_) loads_->add(*b, dt);
   return dt;
+}
+
+void MeshStep::set_loads(std::unique_ptr<MeshLoads> loads) { loads_ = std::move(loads); }
+
+void MeshStep::set_time(double time) {
+  loads_->set_time(time);
+  for (PushingSide& side : pushing_) side.set_time(time);
+}
+
+bool MeshStep::feels(std::size_t load) const {
+  return std::any_of(bodies_.begin(), bodies_.end(),
+                     [&](const auto& b) { return loads_->acts(load, *b); });
 }
 
 std::vector<MeshNodes> MeshStep::nodes() {
@@ -213,9 +228,10 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
   for (std::size_t n = first; n < last; ++n) {
     double *node = b.node(n), *change = b.change(n);
     Triple all{};
+    double given = 0;  // work of sides that move, per mass
     bool pushed = false;
     for (const PushingSide& side : pushing_) {
-      const double touching = (side.plane - node[side.axis]) / dt;
+      const double touching = (side.plane_after(dt) - node[side.axis]) / dt;
       const double missing = side.inwards * (touching - node[4 + side.axis] - change[side.axis]);
       if (!(missing > 0)) continue;
       Triple v{};
@@ -226,6 +242,7 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
       for (std::size_t t = 0; t < dim; ++t) {
         change[t] += push[t];
         all[t] += push[t];
+        given += push[t] * side.velocity[t];
         by_side[t] += node[3] * push[t];
       }
     }
@@ -234,6 +251,8 @@ void MeshStep::push_from_sides(Elements& b, std::size_t first, std::size_t last,
       node[7] -= all[t] * (node[4 + t] + 0.5 * change[t]);
       sums.impulse[t] += node[3] * all[t];
     }
+    node[7] += given;
+    sums.work += node[3] * given;
     sums.heat += node[3] * node[7];
   }
 }
@@ -245,6 +264,7 @@ Standing MeshStep::move(double dt, const Standing& others) {
   scratch_.resize(static_cast<std::size_t>(threads()));
   for (AlignedBuffer& buffer : scratch_)
     buffer.reserve(kElementGroups * (kKeptPacks * kLanes + kLanes + most) + 9 * kLanes);
+  for (auto& b : bodies_) loads_->book(*b, audit_);
   std::vector<ElementResult> results(chunks_.size());
   for_each(chunks_.size(), [&](std::size_t c) {
     const Chunk& chunk = chunks_[c];

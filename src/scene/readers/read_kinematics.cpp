@@ -230,15 +230,9 @@ void refuse_idle(const std::string& kinematics, const Node& place, Reading& read
     reading.problems.add(place.file, place.line, place.path,
                          "kinematics " + kinematics + " " + what);
   };
-  if (scene.body_force || scene.loads.any())
-    fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
   if (scene.method.energy_alpha != 0.5)
     fail("takes Algorithm 1 with alpha 1/2 only: leave out method.energy_alpha");
   if (!scene.detonators.empty()) fail("is not lit by detonators yet; use kinematics: mpm");
-  for (const auto& axis : scene.grid.boundary)
-    for (const Boundary& side : axis)
-      if (side.drives())
-        fail("knows no side that drives: give the body a velocity against a wall instead");
 }
 
 void check_meshes(Reading& reading) {

@@ -9,7 +9,7 @@
 /// whole from when it touches. What that takes from the motion of a node is heat of its elements.
 /// Kinetic + internal + hourglass energy is constant to round-off.
 /// Bodies meet each other and those of points by their faces (kinematics/mesh/mesh_contact.hpp).
-/// Not here: driven sides, fixed references (issue 28).
+/// Loads on their faces and masses: kinematics/mesh/mesh_loads.hpp.
 #include <array>
 #include <memory>
 #include <vector>
@@ -66,6 +66,8 @@ struct MeshNodes {
   std::size_t count;
 };
 
+class MeshLoads;
+
 /// Thrown by move(): element `element` of set `set`.
 struct ElementFault {
   int set;
@@ -74,12 +76,16 @@ struct ElementFault {
 
 class MeshStep final : public Kinematics {
  public:
-  /// Throws std::invalid_argument for a side that drives.
   MeshStep(const DomainSides& domain, const MeshKernels& kernels, Audit& audit);
   ~MeshStep() override;
 
   /// Who is told what sides give bodies; `apart`: bodies are velocity fields of their own.
   void set_impulses(Impulses& impulses, bool apart);
+  /// What pushes from outside; before the first step, and at each one when it is.
+  void set_loads(std::unique_ptr<MeshLoads> loads);
+  void set_time(double time);
+  /// Load `load` acts on some face.
+  bool feels(std::size_t load) const;
   /// Throws InputError where an element has no volume or a node no element.
   void add(ElementBody body);
   void start();  ///< after the last body: forces, energies, and the first limit of the step
@@ -127,7 +133,7 @@ class MeshStep final : public Kinematics {
 
  private:
   struct WallSums {
-    double heat = 0;
+    double heat = 0, work = 0;        ///< work: of sides that move, from outside [J]
     std::array<Triple, 6> by_side{};  ///< on the body, of each side that pushes [N s]
     Triple impulse{};
   };
@@ -159,6 +165,7 @@ class MeshStep final : public Kinematics {
   std::vector<std::unique_ptr<Elements>> bodies_;
   std::vector<Chunk> chunks_;
   Impulses* impulses_ = nullptr;
+  std::unique_ptr<MeshLoads> loads_;
   bool apart_ = false;
   std::size_t shape_changes_ = 0;
   std::vector<AlignedBuffer> scratch_;

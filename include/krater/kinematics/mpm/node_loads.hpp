@@ -27,8 +27,8 @@
 
 #include "krater/contact/boundary.hpp"
 #include "krater/grid/overlaps.hpp"
+#include "krater/kinematics/load_options.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
-#include "krater/kinematics/mpm/load_options.hpp"
 
 namespace krater {
 

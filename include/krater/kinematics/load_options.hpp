@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-/// \file kinematics/mpm/load_options.hpp
+/// \file kinematics/load_options.hpp
 /// What drives a scene beside velocities and body forces: pressure, traction or velocity on faces
 /// of bodies, and damping.
 #include <array>

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/kinematics/mesh/mesh_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinematics/mesh/elements.hpp"
+#include "krater/core/parallel.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr std::size_t kGiven = 9;    // of faces, of damping, of the body force
+constexpr std::size_t kChunk = 512;  // nodes
+constexpr double kLooks = 1e-6;      // cosine above which a face looks along an axis
+
+using Face = std::array<std::int32_t, 4>;
+using Areas = std::array<Triple, 4>;  // int N_I n dA of the corners of a face
+
+std::size_t corners_of(const Face& face) { return face[2] < 0 ? 2 : 4; }
+
+Areas edge_areas(const std::array<Triple, 4>& x, bool round) {
+  Areas out{};
+  const double g = 0.5 / std::sqrt(3.0);
+  for (const double s : {0.5 - g, 0.5 + g}) {
+    const double r = (1 - s) * x[0][0] + s * x[1][0], w = round ? 2 * std::numbers::pi * r : 1.0;
+    for (std::size_t I = 0; I < 2; ++I) {
+      const double N = 0.5 * w * (I == 0 ? 1 - s : s);  // outwards is to the right
+      out[I][0] += N * (x[1][1] - x[0][1]);
+      out[I][1] -= N * (x[1][0] - x[0][0]);
+    }
+  }
+  return out;
+}
+
+Areas quad_areas(const std::array<Triple, 4>& x) {
+  Areas out{};
+  const double g = 0.5 / std::sqrt(3.0);
+  for (const double s : {0.5 - g, 0.5 + g})
+    for (const double t : {0.5 - g, 0.5 + g}) {
+      Triple by_s{}, by_t{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        by_s[a] = (1 - t) * (x[1][a] - x[0][a]) + t * (x[2][a] - x[3][a]);
+        by_t[a] = (1 - s) * (x[3][a] - x[0][a]) + s * (x[2][a] - x[1][a]);
+      }
+      const Triple n = cross(by_s, by_t);
+      const std::array<double, 4> N{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+      for (std::size_t I = 0; I < 4; ++I)
+        for (std::size_t a = 0; a < 3; ++a) out[I][a] += 0.25 * N[I] * n[a];
+    }
+  return out;
+}
+
+Areas areas_of(const std::array<Triple, 4>& x, const Face& face, bool round) {
+  return corners_of(face) == 2 ? edge_areas(x, round) : quad_areas(x);
+}
+
+double outwards(const FaceLoad& load) { return load.side == 0 ? -1 : 1; }
+
+}  // namespace
+
+MeshLoads::MeshLoads(const LoadOptions& options, BodyForce body_force, Frame frame)
+    : options_{options}, body_force_{std::move(body_force)}, frame_{frame} {}
+
+/// By where the face was at the start, and how it looked.
+bool MeshLoads::selects(const FaceLoad& load, const Mesh& mesh, const Face& face) const {
+  std::array<Triple, 4> x{};
+  Triple middle{}, area{};
+  const std::size_t corners = corners_of(face);
+  for (std::size_t I = 0; I < corners; ++I) {
+    x[I] = mesh.nodes[static_cast<std::size_t>(face[I])];
+    for (std::size_t a = 0; a < 3; ++a) middle[a] += x[I][a] / static_cast<double>(corners);
+  }
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(frame_)); ++a)
+    if (middle[a] < load.region[a][0] || middle[a] > load.region[a][1]) return false;
+  if (load.inside && !load.inside(middle)) return false;
+  if (load.axis < 0) return true;
+  for (const Triple& part : areas_of(x, face, false))
+    for (std::size_t a = 0; a < 3; ++a) area[a] += part[a];
+  return outwards(load) * area[static_cast<std::size_t>(load.axis)] >
+         kLooks * std::sqrt(dot(area, area));
+}
+
+void MeshLoads::find_faces(const MeshStep::Elements& b, OfBody& out) const {
+  const std::size_t now = b.made_of.mesh.element_count();
+  if (out.elements == now) return;  // elements are taken out, and never put back
+  out.elements = now;
+  out.faces.clear();
+  const std::vector<Face> faces = faces_of(b);
+  for (std::size_t k = 0; k < options_.faces.size(); ++k) {
+    const std::vector<int>& bodies = options_.faces[k].bodies;
+    if (std::find(bodies.begin(), bodies.end(), b.made_of.body) == bodies.end()) continue;
+    for (const Face& face : faces)
+      if (selects(options_.faces[k], b.made_of.mesh, face)) out.faces.push_back({k, face});
+  }
+}
+
+bool MeshLoads::acts(std::size_t load, const MeshStep::Elements& b) const {
+  OfBody of;
+  find_faces(b, of);
+  return std::any_of(of.faces.begin(), of.faces.end(),
+                     [load](const Loaded& l) { return l.load == load; });
+}
+
+void MeshLoads::add(MeshStep::Elements& b, double dt) {
+  if (!any()) return;
+  OfBody& of = bodies_[&b];
+  find_faces(b, of);
+  of.given.assign(kGiven * b.node_count, 0.0);
+  press(b, of, dt);
+  push_masses(b, of, dt);
+  drive(b, of);
+}
+
+/// Pressures and tractions.
+void MeshLoads::press(MeshStep::Elements& b, OfBody& of, double dt) const {
+  for (const Loaded& loaded : of.faces) {
+    const FaceLoad& load = options_.faces[loaded.load];
+    if (load.kind == FaceLoad::Kind::velocity) continue;
+    Triple value{};
+    for (std::size_t a = 0; a < 3; ++a) value[a] = load.value[a] ? load.value[a](time_) : 0;
+    std::array<Triple, 4> x{};
+    for (std::size_t I = 0; I < corners_of(loaded.face); ++I) {
+      const double* node = b.node(static_cast<std::size_t>(loaded.face[I]));
+      x[I] = {node[0], node[1], node[2]};
+    }
+    const Areas areas = areas_of(x, loaded.face, frame_ == Frame::axisymmetric);
+    for (std::size_t I = 0; I < corners_of(loaded.face); ++I) {
+      const auto n = static_cast<std::size_t>(loaded.face[I]);
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double force =
+            load.kind == FaceLoad::Kind::pressure
+                ? -value[0] * areas[I][a]
+                : value[a] *
+                      std::max(0.0, outwards(load) * areas[I][static_cast<std::size_t>(load.axis)]);
+        const double dv = dt * force / b.node(n)[3];
+        b.change(n)[a] += dv;
+        of.given[kGiven * n + a] += dv;
+      }
+    }
+  }
+}
+
+/// The body force, and damping of what the step is without it.
+void MeshLoads::push_masses(MeshStep::Elements& b, OfBody& of, double dt) const {
+  const double half = 0.5 * options_.damping * dt;
+  const auto dim = static_cast<std::size_t>(dimension(frame_));
+  for_each((b.node_count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t n = chunk * kChunk; n < std::min((chunk + 1) * kChunk, b.node_count); ++n) {
+      double *node = b.node(n), *change = b.change(n), *given = of.given.data() + kGiven * n;
+      if (!(node[3] > 0)) continue;
+      Triple push{};
+      if (body_force_)
+        push = body_force_({node[0], node[1], node[2]}, b.made_of.mesh.nodes[n], time_);
+      for (std::size_t a = 0; a < dim; ++a) {
+        given[6 + a] = dt * push[a];
+        change[a] += given[6 + a];
+        given[3 + a] = -half * (2 * node[4 + a] + change[a]) / (1 + half);
+        change[a] += given[3 + a];
+      }
+    }
+  });
+}
+
+void MeshLoads::drive(MeshStep::Elements& b, OfBody& of) const {
+  for (const Loaded& loaded : of.faces) {
+    const FaceLoad& load = options_.faces[loaded.load];
+    if (load.kind != FaceLoad::Kind::velocity) continue;
+    for (std::size_t I = 0; I < corners_of(loaded.face); ++I) {
+      const auto n = static_cast<std::size_t>(loaded.face[I]);
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (!load.value[a]) continue;
+        const double more = load.value[a](time_) - b.node(n)[4 + a] - b.change(n)[a];
+        b.change(n)[a] += more;
+        of.given[kGiven * n + a] += more;
+      }
+    }
+  }
+}
+
+void MeshLoads::book(const MeshStep::Elements& b, Audit& audit) const {
+  const auto at = bodies_.find(&b);
+  if (at == bodies_.end()) return;
+  std::array<double, 3> work{};
+  std::array<Triple, 3> impulse{};
+  for (std::size_t n = 0; n < b.node_count; ++n) {
+    const double *node = b.nodes.data() + kNode * n, *change = b.changes.data() + kChange * n,
+                 *given = at->second.given.data() + kGiven * n;
+    for (std::size_t kind = 0; kind < 3; ++kind)
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double J = node[3] * given[3 * kind + a];
+        work[kind] += J * (node[4 + a] + 0.5 * change[a]);
+        impulse[kind][a] += J;
+      }
+  }
+  audit.load_work += work[0];
+  audit.damping_work += work[1];
+  audit.external_work += work[0] + work[1] + work[2];
+  for (std::size_t a = 0; a < 3; ++a) {
+    audit.load_impulse[a] += impulse[0][a];
+    audit.damping_impulse[a] += impulse[1][a];
+    audit.external_impulse[a] += impulse[0][a] + impulse[1][a] + impulse[2][a];
+  }
+}
+
+}  // namespace krater
