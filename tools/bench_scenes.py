@@ -14,20 +14,22 @@ ALUMINIUM = ("density: 2785, shear_modulus: 27.6 GPa, eos: {mie_gruneisen_shock:
 H = 0.381e-3  # 10 cells on the radius of the rod: 168,692 points in 3d
 
 
-def taylor(frame="3d", cell=H, without=(), replace=None, method=""):
+def taylor(frame="3d", cell=H, without=(), replace=None, method="", kinematics="mpm", quarter=False):
     """The rod of inputs/taylor_copper.yaml (same constants), some effects left out or replaced."""
     parts = dict(COPPER, **(replace or {}))
     copper = ", ".join(text for name, text in parts.items() if name not in without)
+    sides = "x_min: symmetry, y_min: symmetry" if quarter else "r_min: axis, r_max: open, z_max: open"
+    box = "min: [0, 0, 0], max: [12 mm, 12 mm, 27 mm]" if quarter else "min: [0, 0], max: [12 mm, 27 mm]"
     return f"""title: Taylor impact
 frame: {frame}
 grid:
   cell: {cell!r}
-  box: {{min: [0, 0], max: [12 mm, 27 mm]}}
-  boundary: {{z_min: {{wall: {{friction: 0}}}}, r_min: axis, r_max: open, z_max: open}}
+  box: {{{box}}}
+  boundary: {{z_min: {{wall: {{friction: 0}}}}, {sides}}}
 time: {{end: 80 us, cfl: 0.5}}
 method: {{points_per_direction: 2{method}}}
 materials: {{copper: {{{copper}}}}}
-bodies: {{rod: {{material: copper, shape: {{cylinder: {{radius: 3.81 mm, height: 25.4 mm}}}}, velocity: [0, -190 m/s]}}}}
+bodies: {{rod: {{material: copper, shape: {{cylinder: {{radius: 3.81 mm, height: 25.4 mm}}}}, velocity: {"[0, 0, -190 m/s]" if quarter else "[0, -190 m/s]"}, kinematics: {kinematics}}}}}
 """
 
 

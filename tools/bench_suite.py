@@ -136,6 +136,10 @@ SCENES = {  # name: (scene, steps, warm-up, flow is watched)
     "hypervelocity 3d": (scenes.hypervelocity(), 30, 40, True),
     "wide target": (scenes.wide_target(), 120, 40, False),
     "elastic 3d": (scenes.elastic("3d"), 30, 10, False),
+    "Taylor 3d, elements": (scenes.taylor("3d", kinematics="lagrangian_mesh"), 100, 10, False),
+    "Taylor axisymmetric, h/4, elements":
+        (scenes.taylor("axisymmetric", scenes.H / 4, kinematics="lagrangian_mesh"), 120, 20, False),
+    "Taylor 3d, a quarter, particles": (scenes.taylor("3d", kinematics="sph", quarter=True), 20, 5, False),
 }
 
 

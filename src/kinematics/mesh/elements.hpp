@@ -44,14 +44,17 @@ struct MeshStep::Elements {
   }
   /// Sum over the corners that it is, in order of elements [N].
   Triple force_on(std::size_t node) const {
-    const std::size_t each = corner_count(), dim = static_cast<std::size_t>(made_of.mesh.dimension);
-    Triple f{};
+    return made_of.mesh.dimension == 3 ? sum_of_corners<3>(node) : sum_of_corners<2>(node);
+  }
+  template <int Dim>
+  Triple sum_of_corners(std::size_t node) const {
+    constexpr std::size_t each = kForceDoubles<Dim>;
+    std::array<double, each> f{};
     for (std::size_t k = corners_of.first[node]; k < corners_of.first[node + 1]; ++k) {
-      const std::size_t e = corners_of.places[k] / each, I = corners_of.places[k] % each;
-      const double* corner = forces.data() + (e / kLanes * each + I) * dim * kLanes + e % kLanes;
-      for (std::size_t a = 0; a < dim; ++a) f[a] += corner[a * kLanes];
+      const double* corner = forces.data() + each * corners_of.places[k];
+      for (std::size_t a = 0; a < each; ++a) f[a] += corner[a];
     }
-    return f;
+    return {f[0], f[1], Dim == 3 ? f[each - 2] : 0};
   }
   double* node(std::size_t n) { return nodes.data() + kNode * n; }
   double* change(std::size_t n) { return changes.data() + kChange * n; }

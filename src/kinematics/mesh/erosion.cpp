@@ -31,7 +31,10 @@ void copy_element(MeshStep::Elements& b, int from, int to) {
                     dim = static_cast<std::size_t>(b.made_of.mesh.dimension);
   copy_lane(b.corners.data(), corners, from, to);
   copy_lane(b.shares.data(), corners, from, to);
-  copy_lane(b.forces.data(), corners * dim, from, to);
+  const std::size_t doubles =
+      corners * static_cast<std::size_t>(dim == 3 ? kForceDoubles<3> : kForceDoubles<2>);
+  std::copy_n(b.forces.data() + doubles * static_cast<std::size_t>(from), doubles,
+              b.forces.data() + doubles * static_cast<std::size_t>(to));
   copy_lane(b.hourglass.data(), dim == 3 ? 12 : 2, from, to);
   copy_lane(b.hourglass_energy.data(), 1, from, to);
   copy_lane(b.remembered.data(), kRemembered, from, to);
@@ -194,7 +197,7 @@ std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& b) {
   return out;
 }
 
-void MeshStep::erode() {
+bool MeshStep::erode() {
   bool any = false;
   for (auto& body : bodies_) {
     if (!body->erodes()) continue;
@@ -204,9 +207,10 @@ void MeshStep::erode() {
     take_out(*body, gone, domain_.frame == Frame::axisymmetric, audit_);
     any = true;
   }
-  if (!any) return;
+  if (!any) return false;
   ++shape_changes_;
   make_chunks();
+  return true;
 }
 
 /// Heat of nodes that eroded elements would have had.

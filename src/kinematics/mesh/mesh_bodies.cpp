@@ -88,7 +88,9 @@ void sort_by_lanes(const std::vector<double>& volumes, MeshStep::Elements& body)
         body.corners[to] = mesh.elements[from];
         body.shares.data()[to] = body.made_of.density * volumes[from];
       }
-  body.forces.reserve(groups * corners * dim * kLanes);
+  body.forces.reserve(groups * corners *
+                      static_cast<std::size_t>(dim == 3 ? kForceDoubles<3> : kForceDoubles<2>) *
+                      kLanes);
   body.hourglass.reserve(groups * (dim == 3 ? 12 : 2) * kLanes);
   body.hourglass_energy.reserve(groups * kLanes);
   body.remembered.reserve(groups * kRemembered * kLanes);

@@ -282,8 +282,7 @@ Standing MeshStep::move(double dt, const Standing& others) {
   book(results, others);
   audit_.kinetic = others.kinetic;
   for (int b = 0; b < set_count(); ++b) audit_.kinetic += totals(b).kinetic;
-  erode();
-  find_forces();
+  if (erode()) find_forces();  // and the limit without what is gone
   audit_.contact_pairs = others.contact_pairs;
   return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "krater/kinematics/mesh/hexahedron.hpp"
 #include "krater/kinematics/mesh/hourglass.hpp"
 #include "krater/kinematics/mesh/mesh.hpp"
 #include "krater/kinematics/mesh/mesh_health.hpp"
@@ -134,6 +135,60 @@ double bending_stiffness(const double (&half)[3], int k, int mode, double mu, do
 }  // namespace
 
 TEST_SUITE("unit") {
+  // hexahedron.hpp is another way to the same numbers: each against the sums over corners.
+  TEST_CASE("element: the modes of a hexahedron give what its corners give") {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const Shape<3> s = distorted<3>(seed, 0.25, 3.0);
+      const auto e = geometry<Cartesian<3>>(s);
+      Hexahedron<double> h;
+      find_modes(s.x, h.a);
+      h.find_slopes();
+      CHECK(h.volume == doctest::Approx(e.volume).epsilon(1e-13));
+      std::mt19937 random{seed};
+      std::uniform_real_distribution<double> any{-1, 1};
+      double v[8][3], Q[12], share[8], stress[6];
+      for (auto& corner : v)
+        for (double& x : corner) x = any(random);
+      for (double& x : Q) x = any(random);
+      for (double& x : share) x = 2 + any(random);
+      for (double& x : stress) x = any(random);
+      const Sym3<double> sigma{stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]};
+      CornerModes<double> u;
+      find_modes(v, u);
+      const Mat3<double> L = h.gradient(u, 1 / h.volume),
+                         by_corners = mean_gradient(e, v, 1 / e.volume);
+      CHECK(L.xx == doctest::Approx(by_corners.xx).epsilon(1e-12));
+      CHECK(L.xy == doctest::Approx(by_corners.xy).epsilon(1e-12));
+      CHECK(L.yz == doctest::Approx(by_corners.yz).epsilon(1e-12));
+      CHECK(L.zx == doctest::Approx(by_corners.zx).epsilon(1e-12));
+      HourglassFrame<double, 3> frame;
+      find_hourglass(e, s.x, frame);
+      double rates[12], q[4][3], directions[3][3], per_a[3], F[4][3];
+      hourglass_rates<double, 3>(frame, v, rates);
+      h.hourglass_of(u, L, 1.0, q);
+      h.directions(directions, per_a);
+      for (int k = 0; k < 3; ++k) {
+        CHECK(per_a[k] == doctest::Approx(frame.per_a[k]).epsilon(1e-13));
+        for (int a = 0; a < 4; ++a)
+          CHECK(std::abs(dot3(directions[k], q[a]) - rates[4 * k + a]) < 1e-13);
+      }
+      for (int a = 0; a < 4; ++a)
+        for (int i = 0; i < 3; ++i) {
+          F[a][i] = 0;
+          for (int k = 0; k < 3; ++k) F[a][i] += directions[k][i] * Q[4 * k + a];
+        }
+      double f[8][3], g[8][3] = {};
+      h.forces(sigma, F, f);
+      add_stress_force(e, sigma, g);
+      add_hourglass_force<double, 3>(frame, Q, g);
+      for (int I = 0; I < 8; ++I)
+        for (int i = 0; i < 3; ++i) CHECK(std::abs(f[I][i] - g[I][i]) < 1e-13);
+      CHECK(h.stable_length(share, 1.5) ==
+            doctest::Approx(stable_length(e, share, 1.5)).epsilon(1e-13));
+      CHECK(h.squares() == doctest::Approx(squares_of(e)).epsilon(1e-13));
+    }
+  }
+
   TEST_CASE("elements: b is the derivative of the volume, and linear fields are exact") {
     for (unsigned seed = 1; seed < 5; ++seed) {
       check_geometry<Cartesian<3>>(seed);

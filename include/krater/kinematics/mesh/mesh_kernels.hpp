@@ -5,7 +5,7 @@
 /// that they work on. Elements lie in lane groups of 8 as points do (points/store.hpp); what a
 /// group has beside its columns lies in arrays of `groups` records:
 ///   corners [corner][8 lanes]          shares, the mass of each corner [corner][8]
-///   forces  [corner][axis][8]          Q of the hourglass [component][8]
+///   Q of the hourglass [component][8]  forces [8][corner][kForceDoubles]: nodes sum them
 ///   energy of the hourglass [8]        G, tr D of the last step, 1/dt of the next [3][8]
 /// Nodes: x, m, v, heat per mass of the step (8 doubles), and the change of velocity of the step.
 #include <cstdint>
@@ -49,8 +49,11 @@ struct ElementScratch {
   const double* zeros;
 };
 inline constexpr int kElementGroups = 8;  ///< groups that a stage works on at once
-inline constexpr int kKeptPacks = 20;
+inline constexpr int kKeptPacks = 68;
 inline constexpr int kRemembered = 3;
+/// Doubles of the force on a corner: its components, and padding.
+template <int Dim>
+inline constexpr int kForceDoubles = Dim == 3 ? 4 : 2;
 
 /// What a sweep over some groups leaves behind; combined in their order.
 struct ElementResult {
@@ -69,7 +72,8 @@ class MeshKernels {
   virtual ~MeshKernels();
   /// Forces of the corners where the nodes are, and what the state allows of a step.
   virtual void forces(const ElementData& data, int first, int last, ElementResult& out) const = 0;
-  /// Work, strain and stages of a step dt of the nodes' velocities v + dv; nodes have not moved.
+  /// Work, strain and stages of a step dt of the nodes' velocities v + dv, and the forces of the
+  /// next; nodes have not moved.
   virtual void strain(const ElementData& data, const ElementScratch& scratch, double dt, int first,
                       int last, ElementResult& out) const = 0;
 };

@@ -148,7 +148,7 @@ class MeshStep final : public Kinematics {
                        WallSums& sums) const;
   void note_planes(Elements& body) const;
   void make_chunks();
-  void erode();
+  bool erode();  ///< true: something was
   Eroded taken_out(bool converted) const;
   void lose_heat(const Elements& body);
   template <class Work>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file kinematics/mesh/mesh_sweeps.hpp
-/// One step of the elements of a body, on the geometry of placed_element.hpp. With v+ = v- + dv and
+/// One step of the elements of a body, on the geometry of element_shapes.hpp. With v+ = v- + dv and
 /// vm = v- + dv/2 of the nodes, at x_n:
 ///   W = dt V sigma : L(vm) = - dt sum f_I . vm_I         work of the very forces, to round-off
 ///   e <- e + W/m + sum_I m_eI k_I/m                      k: heat of walls at the nodes
@@ -9,62 +9,14 @@
 /// f alone is not, where corners move otherwise than linearly. e is that of t_{n+1/2}
 /// (BatchData::energy_share 0), as in kinematics/mpm/ledger.hpp; nothing is lost on the way between
 /// nodes and elements, so the sum over all elements closes.
+/// While the group is in the cache its forces for the next step are found, at x_{n+1} and v+, as
+/// find_forces() would from the nodes, bit for bit: corners move as nodes do.
 #pragma once
 
 #include "krater/core/lane_math.hpp"
-#include "krater/core/stability.hpp"
-#include "krater/kinematics/mesh/mesh_kernels.hpp"
-#include "krater/kinematics/mesh/placed_element.hpp"
-#include "krater/materials/batch_access.hpp"
+#include "krater/kinematics/mesh/element_shapes.hpp"
 
 namespace krater::inline KRATER_ISA {
-
-template <int Dim>
-struct Corners {
-  static constexpr int nodes = corner_nodes(Dim);
-  Pack x[nodes][Dim], v[nodes][Dim], dv[nodes][Dim], heat[nodes];
-};
-
-template <int Dim>
-KRATER_FORCE_INLINE void load_corners(const ElementData& d, int g, bool change, Corners<Dim>& out) {
-  constexpr int N = corner_nodes(Dim);
-  for (int I = 0; I < N; ++I) {
-    const std::int32_t* lanes = d.corners + (N * g + I) * kLanes;
-    Pack r[8];
-    for (int l = 0; l < kLanes; ++l) r[l] = load(d.nodes + 8 * lanes[l]);
-    transpose8(r);
-    for (int a = 0; a < Dim; ++a) {
-      out.x[I][a] = r[a];
-      out.v[I][a] = r[4 + a];
-    }
-    out.heat[I] = r[7];
-    if (!change) continue;
-    for (int l = 0; l < kLanes; ++l) r[l] = loadu(d.changes + 4 * lanes[l]);
-    transpose8(r);
-    for (int a = 0; a < Dim; ++a) out.dv[I][a] = r[a];
-  }
-}
-
-/// The geometry of the corners x, and what it was carried from.
-template <class Frame, ElementReference On>
-KRATER_FORCE_INLINE void place(const ElementData& d, int g,
-                               const Pack (&x)[corner_nodes(Frame::dim)][Frame::dim],
-                               ReferenceElement<Frame>& r, ElementGeometry<Pack, Frame>& e) {
-  if constexpr (On == ElementReference::current) {
-    find_geometry(x, e);
-  } else {
-    constexpr int N = corner_nodes(Frame::dim);
-    for (int I = 0; I < N; ++I) {
-      const std::int32_t* lanes = d.corners + (N * g + I) * kLanes;
-      Pack at[8];
-      for (int l = 0; l < kLanes; ++l) at[l] = loadu(d.start + 4 * lanes[l]);
-      transpose8(at);
-      for (int a = 0; a < Frame::dim; ++a) r.X[I][a] = at[a];
-    }
-    find_geometry(r.X, r.start);
-    carry(x, r, e);
-  }
-}
 
 /// Columns of the groups from `first` on.
 struct ElementViews {
@@ -97,53 +49,6 @@ KRATER_FORCE_INLINE void load_shares(const ElementData& d, int g, Pack (&out)[co
     out[I] = load(d.shares + (corner_nodes(Dim) * g + I) * kLanes);
 }
 
-/// Viscous hourglass: f = - c_h/4 rho c S (sum_K G_K v_K) G_I, G = N gamma, S the area of a face.
-template <class Frame>
-KRATER_FORCE_INLINE void add_viscous_hourglass(const HourglassFrame<Pack, Frame::dim>& h,
-                                               const Corners<Frame::dim>& at, Pack strength,
-                                               Pack (&f)[corner_nodes(Frame::dim)][Frame::dim]) {
-  constexpr int D = Frame::dim, N = corner_nodes(D);
-  for (int a = 0; a < hourglass_modes(D); ++a)
-    for (int i = 0; i < D; ++i) {
-      Pack sum = 0.0;
-      for (int I = 0; I < N; ++I) sum = fma(h.gamma[a][I], at.v[I][i] - at.v[0][i], sum);
-      for (int I = 0; I < N; ++I) f[I][i] = fnma(strength * sum, h.gamma[a][I], f[I][i]);
-    }
-}
-
-using Holding = HourglassOptions::Kind;
-/// Stress Q that is kept, in place of dampers.
-constexpr bool keeps(Holding kind) { return kind != Holding::viscous; }
-
-/// Forces that hold the hourglass modes, at the corners as they are.
-template <class Frame, Holding Kind, ElementReference On>
-KRATER_FORCE_INLINE void add_hourglass(const ElementData& d, const ElementGeometry<Pack, Frame>& e,
-                                       const ReferenceElement<Frame>& r,
-                                       const Corners<Frame::dim>& at, Pack rho_c, int g,
-                                       HourglassFrame<Pack, Frame::dim>& h,
-                                       Pack (&f)[corner_nodes(Frame::dim)][Frame::dim]) {
-  constexpr int D = Frame::dim, N = corner_nodes(D), size = hourglass_size(D);
-  if constexpr (keeps(Kind)) {
-    Pack Q[size];
-    for (int k = 0; k < size; ++k) Q[k] = load(d.hourglass + (size * g + k) * kLanes);
-    if constexpr (On == ElementReference::current) {
-      find_hourglass(e, at.x, h);
-      add_hourglass_force<Pack, D>(h, Q, f);
-    } else {
-      find_hourglass(r.start, r.X, h);
-      add_pulled_force(h, r, at.x, Q, f);
-    }
-  } else {
-    ElementGeometry<Pack, Frame> now = e;
-    if constexpr (On == ElementReference::initial)
-      find_geometry(at.x, now);  // dampers know no start
-    find_hourglass(now, at.x, h);
-    const Pack measure = plane_measure(at.x, e.volume);
-    const Pack face = D == 3 ? measure * rcbrt(measure) : e.volume / sqrt(measure);
-    add_viscous_hourglass<Frame>(h, at, 0.25 * d.held.viscous * N * N * rho_c * face, f);
-  }
-}
-
 KRATER_FORCE_INLINE void note_rate(const ElementData& d, Pack rate, int kind, int g,
                                    ElementResult& out) {
   const Pack valid = select(first_lanes(d.count - kLanes * g), rate, Pack(0.0));
@@ -156,170 +61,196 @@ KRATER_FORCE_INLINE void note_rate(const ElementData& d, Pack rate, int kind, in
     }
 }
 
-/// Length of the viscosity: of the whole element, that waves along a flat one see it too, but no
-/// more than twice the stable one: across a flat element its damping would else demand a step that
-/// falls with the square of the thickness.
-template <class Frame>
-KRATER_FORCE_INLINE Pack viscous_length(const ElementGeometry<Pack, Frame>& e,
-                                        const Pack (&x)[corner_nodes(Frame::dim)][Frame::dim],
-                                        Pack stable) {
-  const Pack measure = plane_measure(x, e.volume);
-  const Pack whole = Frame::dim == 3 ? measure * rcbrt(measure) * rcbrt(measure) : sqrt(measure);
-  return min(whole, 2.0 * stable);
+/// The forces of a group at its corners: per element corner by corner, components and padding.
+template <int Dim>
+KRATER_FORCE_INLINE void store_forces(const ElementData& d, int g,
+                                      const Pack (&f)[corner_nodes(Dim)][Dim]) {
+  constexpr int N = corner_nodes(Dim), at_once = 8 / kForceDoubles<Dim>;
+  for (int I = 0; I < N; I += at_once) {
+    Pack r[8];
+    for (int k = 0; k < 8; ++k) {
+      const int i = k % kForceDoubles<Dim>;
+      r[k] = i < Dim ? f[I + k / kForceDoubles<Dim>][i] : Pack(0.0);
+    }
+    transpose8(r);
+    for (int l = 0; l < kLanes; ++l)
+      store(d.forces + ((g * kLanes + l) * N + I) * kForceDoubles<Dim>, r[l]);
+  }
 }
 
-/// The step of an element in its stiffest motion, of frequency 2 c_L/l, damped by xi = Q/c_L:
+/// Stable and viscous length of a group.
+struct Lengths {
+  Pack stable, viscous;
+};
+
+/// Forces, and the step of an element in its stiffest motion, of frequency 2 c_L/l, damped by xi =
+/// Q/c_L:
 ///   dt = l/(Q + sqrt(Q^2 + c_L^2)),   Q = L/l (q_lin c + 2 q_quad L |tr D|),
 /// L the length of the viscosity.
+template <Holding Kind, class Shape>
+KRATER_FORCE_INLINE void find_group_forces(const ElementData& d, const ElementViews& view, int g,
+                                           Shape& shape, const Corners<Shape::D>& at,
+                                           const Lengths& length, ElementResult& out) {
+  const Pack rho = view.density(g), c = view.sound_speed(g);
+  typename Shape::Values f;
+  shape.template forces<Kind>(d, g, at, whole_stress(view, g), rho * c, f);
+  store_forces<Shape::D>(d, g, f);
+  double* remembered = d.remembered + kRemembered * kLanes * g;
+  const Pack G = load(remembered), tr_D = load(remembered + kLanes);
+  const Pack closing = max(Pack(0.0), -tr_D);
+  const Pack Qv = select(
+      closing > Pack(0.0),
+      length.viscous / length.stable * fma((2.0 * d.q_quad) * length.viscous, closing, d.q_lin * c),
+      Pack(0.0));
+  const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
+  const Pack rate = (Qv + sqrt(fma(Qv, Qv, c_L_squared))) / length.stable;
+  store(remembered + 2 * kLanes, rate);
+  note_rate(d, rate, 0, g, out);
+  note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
+}
+
+template <class Shape>
+KRATER_FORCE_INLINE Lengths lengths_of(const Shape& shape, const Pack (&share)[Shape::N],
+                                       Pack measure) {
+  Pack mass = 0.0;
+  for (const Pack& m : share) mass = mass + m;
+  const Pack stable = shape.stable(share, mass / shape.volume());
+  return {stable, viscous_length<Shape::D>(measure, stable)};
+}
+
 template <class Frame, Holding Kind, ElementReference On>
 void find_forces(const ElementData& d, int first, int last, ElementResult& out) {
-  constexpr int D = Frame::dim, N = corner_nodes(D);
+  using Shape = typename ShapeOf<Frame, On>::type;
+  constexpr int D = Frame::dim;
   alignas(64) static constexpr double zeros[kLanes] = {};
   const ElementViews view = views_of(d, zeros);
   for (int g = first; g < last; ++g) {
     Corners<D> at;
     load_corners<D>(d, g, false, at);
-    ElementGeometry<Pack, Frame> e;
-    ReferenceElement<Frame> r;
-    place<Frame, On>(d, g, at.x, r, e);
-    Pack f[N][D];
-    for (auto& corner : f)
-      for (Pack& component : corner) component = 0.0;
-    add_stress_force(e, whole_stress(view, g), f);
-    const Pack rho = view.density(g), c = view.sound_speed(g);
-    HourglassFrame<Pack, D> h;
-    add_hourglass<Frame, Kind, On>(d, e, r, at, rho * c, g, h, f);
-    for (int I = 0; I < N; ++I)
-      for (int i = 0; i < D; ++i) store(d.forces + ((N * g + I) * D + i) * kLanes, f[I][i]);
-    Pack share[N];
+    Pack share[Shape::N];
     load_shares<D>(d, g, share);
-    double* remembered = d.remembered + kRemembered * kLanes * g;
-    const Pack length = stable_length(e, share, rho), G = load(remembered),
-               tr_D = load(remembered + kLanes);
-    const Pack closing = max(Pack(0.0), -tr_D), viscous = viscous_length<Frame>(e, at.x, length);
-    const Pack Qv =
-        select(closing > Pack(0.0),
-               viscous / length * fma((2.0 * d.q_quad) * viscous, closing, d.q_lin * c), Pack(0.0));
-    const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
-    const Pack rate = (Qv + sqrt(fma(Qv, Qv, c_L_squared))) / length;
-    store(remembered + 2 * kLanes, rate);
-    note_rate(d, rate, 0, g, out);
-    note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
+    Shape shape;
+    shape.place(d, g, at.x);
+    find_group_forces<Kind>(d, view, g, shape, at,
+                            lengths_of(shape, share, plane_measure(at.x, shape.volume())), out);
   }
 }
 
 /// What is kept of a group between strain and the end of the stages.
 struct Kept {
-  static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16, squares = 17;
+  static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16, squares = 17, lengths = 18,
+                       corners = 20;  // x and v+ of the corners
 };
 
-/// The step's map of a group, its volume before, and which group it is, of the body and of those
-/// that the stages work on.
-struct StepMap {
-  Mat3<Pack> dtL;
+/// A group's volume before, and which it is, of the body and of those that the stages work on.
+struct GroupPlace {
   Pack volume;
-  double dt;
   int g, local;
 };
 
-/// Where the corners go: exact volume, length, and the place and velocity of the whole.
-template <class Frame, ElementReference On>
+/// Where the corners are now: exact volume, lengths, and the place and velocity of the whole.
+template <class Shape>
 KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& w,
-                                    const ElementViews& view, const StepMap& map,
-                                    const Pack (&share)[corner_nodes(Frame::dim)],
-                                    Corners<Frame::dim>& at, ReferenceElement<Frame>& r) {
-  constexpr int D = Frame::dim, N = corner_nodes(D);
-  const int g = map.g, local = map.local;
-  for (int I = 0; I < N; ++I)
-    for (int i = 0; i < D; ++i) at.x[I][i] = fma(Pack(map.dt), at.v[I][i], at.x[I][i]);
-  ElementGeometry<Pack, Frame> after;
-  if constexpr (On == ElementReference::current)
-    find_geometry(at.x, after);
-  else
-    carry(at.x, r, after);
-  double* record = w.local + local * d.columns.local_stride;
-  store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, map.dtL);
+                                    const ElementViews& view, const Mat3<Pack>& dtL,
+                                    const GroupPlace& was, const Pack (&share)[Shape::N],
+                                    const Shape& shape, const Corners<Shape::D>& at) {
+  constexpr int D = Shape::D, N = Shape::N;
+  double* record = w.local + was.local * d.columns.local_stride;
+  store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, dtL);
   Pack extra = 0.0;  // on the initial reference det f is the ratio
-  if constexpr (On == ElementReference::current) {
-    const Pack det_f = det_minus_one(map.dtL) + 1.0, ratio = after.volume / (map.volume * det_f);
+  if constexpr (Shape::current) {
+    const Pack det_f = det_minus_one(dtL) + 1.0, ratio = shape.volume() / (was.volume * det_f);
     extra = 2.0 * (ratio - 1.0) / (ratio + 1.0);
   }
   store(record + d.columns.local_extra, extra);
+  const Lengths length = lengths_of(shape, share, plane_measure(at.x, shape.volume()));
+  store(w.length + was.local * kLanes, length.viscous);
+  double* kept = w.kept + was.local * kKeptPacks * kLanes;
+  store(kept + Kept::lengths * kLanes, length.stable);
+  store(kept + (Kept::lengths + 1) * kLanes, length.viscous);
   Pack mass = 0.0;
   for (const Pack& m : share) mass = mass + m;
-  store(w.length + local * kLanes,
-        viscous_length<Frame>(after, at.x, stable_length(after, share, mass / after.volume)));
   for (int i = 0; i < D; ++i) {
     Pack x = 0.0, v = 0.0;
     for (int I = 0; I < N; ++I) {
       x = x + at.x[I][i];
       v = fma(share[I], at.v[I][i], v);
+      store(kept + (Kept::corners + D * I + i) * kLanes, at.x[I][i]);
+      store(kept + (Kept::corners + D * (N + I) + i) * kLanes, at.v[I][i]);
     }
-    view.position.set(g, i, (1.0 / N) * x);
-    view.velocity.set(g, i, v / mass);
+    view.position.set(was.g, i, (1.0 / N) * x);
+    view.velocity.set(was.g, i, v / mass);
   }
 }
 
-/// Before the stages: work into e, strain, density.
+/// After the stages: the forces of the next step.
+template <class Frame, Holding Kind, ElementReference On>
+KRATER_FORCE_INLINE void find_next_forces(const ElementData& d, const double* kept,
+                                          const ElementViews& view, int g, ElementResult& out) {
+  using Shape = typename ShapeOf<Frame, On>::type;
+  constexpr int D = Frame::dim, N = corner_nodes(D);
+  Corners<D> at;
+  for (int I = 0; I < N; ++I)
+    for (int i = 0; i < D; ++i) {
+      at.x[I][i] = load(kept + (Kept::corners + D * I + i) * kLanes);
+      at.v[I][i] = load(kept + (Kept::corners + D * (N + I) + i) * kLanes);
+    }
+  Shape shape;
+  shape.place(d, g, at.x);
+  find_group_forces<Kind>(
+      d, view, g, shape, at,
+      {load(kept + Kept::lengths * kLanes), load(kept + (Kept::lengths + 1) * kLanes)}, out);
+}
+
+/// Before the stages: work into e, strain, density, and where the corners go.
 template <class Frame, Holding Kind, ElementReference On>
 KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch& w,
                                       const ElementViews& view, double dt, int g, int local) {
-  constexpr int D = Frame::dim, N = corner_nodes(D), size = hourglass_size(D);
+  using Shape = typename ShapeOf<Frame, On>::type;
+  constexpr int D = Frame::dim, N = corner_nodes(D);
   Corners<D> at;
   load_corners<D>(d, g, true, at);
-  Pack share[N];
+  Pack share[N], heat = 0.0, mass = 0.0;
   load_shares<D>(d, g, share);
-  ElementGeometry<Pack, Frame> e;
-  ReferenceElement<Frame> r;
-  place<Frame, On>(d, g, at.x, r, e);
-  HourglassFrame<Pack, D> h;
-  Pack f[N][D];
-  for (auto& corner : f)
-    for (Pack& component : corner) component = 0.0;
-  const Pack c = view.sound_speed(g);
-  add_hourglass<Frame, Kind, On>(d, e, r, at, view.density(g) * c, g, h,
-                                 f);  // of the v- that it was found with
-  Pack heat = 0.0, held = 0.0, middle[N][D], mass = 0.0;
   for (int I = 0; I < N; ++I) {
     heat = fma(share[I], at.heat[I], heat);
     mass = mass + share[I];
-    for (int i = 0; i < D; ++i) {
-      middle[I][i] = fma(Pack(0.5), at.dv[I][i], at.v[I][i]);
-      held = fnma(f[I][i], middle[I][i] - middle[0][i], held);
-      at.v[I][i] = at.v[I][i] + at.dv[I][i];
-    }
   }
-  const Pack per_volume = 1.0 / e.volume;
-  const Sym3<Pack> D_middle = sym(mean_gradient(e, middle, per_volume));
-  const Pack work = dt * e.volume * contract(whole_stress(view, g), D_middle);
+  Shape shape;
+  shape.place(d, g, at.x);
+  typename Shape::Motion before, change, middle, after;
+  Shape::find_motion(at.v, before);
+  Shape::find_motion(at.dv, change);
+  Shape::add(0.5, change, before, middle);
+  Shape::add(1.0, change, before, after);
+  const Pack volume = shape.volume(), per_volume = 1.0 / volume;
+  const Mat3<Pack> L_middle = shape.gradient(middle, per_volume);
+  const Pack held = shape.template power<Kind>(d, g, at, before, middle, L_middle,
+                                               view.density(g) * view.sound_speed(g));
+  const Pack work = dt * volume * contract(whole_stress(view, g), sym(L_middle));
   view.energy.set(g, view.energy(g) + (work + heat) / mass);
   double* energy = d.hourglass_energy + kLanes * g;
   store(energy, fma(Pack(dt), held, load(energy)));
 
-  const Mat3<Pack> dtL = mean_gradient(e, at.v, dt * per_volume);
+  const Mat3<Pack> dtL = shape.gradient(after, dt * per_volume);
   double* kept = w.kept + local * kKeptPacks * kLanes;
-  Pack modes[hourglass_modes(D)][D], before[size];
   if constexpr (keeps(Kind)) {
-    if constexpr (On == ElementReference::current) {
-      Pack q[size];
-      hourglass_rates<Pack, D>(h, at.v, q);
-      for (int k = 0; k < size; ++k) store(kept + (Kept::rates + k) * kLanes, dt * q[k]);
-    } else {
-      pulled_modes(h, r, at.x, modes, before);
-    }
-    for (int k = 0; k < D; ++k) store(kept + (Kept::per_a + k) * kLanes, h.per_a[k]);
-    store(kept + Kept::volume * kLanes,
-          On == ElementReference::current ? e.volume : r.start.volume);
+    shape.begin_modes(at, after, dtL, dt);
+    for (int k = 0; k < D; ++k) store(kept + (Kept::per_a + k) * kLanes, shape.per_length()[k]);
+    store(kept + Kept::volume * kLanes, shape.reference_volume());
     store(kept + Kept::plastic * kLanes, view.plastic(g));
-    if constexpr (Kind == Holding::stiffness)
-      store(kept + Kept::squares * kLanes,
-            squares_of(On == ElementReference::current ? e : r.start));
+    if constexpr (Kind == Holding::stiffness) store(kept + Kept::squares * kLanes, shape.squares());
   }
-  move_group<Frame, On>(d, w, view, {dtL, e.volume, dt, g, local}, share, at, r);
-  if constexpr (keeps(Kind) && On == ElementReference::initial) {
-    Pack after[size];
-    pulled_modes(h, r, at.x, modes, after);
-    for (int k = 0; k < size; ++k) store(kept + (Kept::rates + k) * kLanes, after[k] - before[k]);
+  for (int I = 0; I < N; ++I)
+    for (int i = 0; i < D; ++i) {
+      at.v[I][i] = at.v[I][i] + at.dv[I][i];
+      at.x[I][i] = at.x[I][i] + dt * at.v[I][i];  // as the node
+    }
+  shape.place_again(at.x);
+  move_group(d, w, view, dtL, {volume, g, local}, share, shape, at);
+  if constexpr (keeps(Kind)) {
+    shape.end_modes(at);
+    for (int k = 0; k < Shape::size; ++k) store(kept + (Kept::rates + k) * kLanes, shape.moved[k]);
   }
 }
 
@@ -389,6 +320,7 @@ void strain_elements(const ElementData& d, const ElementScratch& w, double dt, i
       store(d.remembered + (kRemembered * g + 1) * kLanes, load(record + c.local_rate));
       if constexpr (keeps(Kind))
         stress_hourglass<D, Kind>(d, w.kept + (g - from) * kKeptPacks * kLanes, view, G, g);
+      find_next_forces<Frame, Kind, On>(d, w.kept + (g - from) * kKeptPacks * kLanes, view, g, out);
       const Mask valid = first_lanes(d.count - kLanes * g);
       out.internal += sum(view.mass(g) * view.energy(g));
       out.hourglass += sum(select(valid, load(d.hourglass_energy + kLanes * g), Pack(0.0)));
