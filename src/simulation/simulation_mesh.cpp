@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "krater/core/errors.hpp"
 #include "krater/kinematics/mesh/mesh_loads.hpp"
 #include "krater/kinematics/mpm/migrate.hpp"
@@ -128,6 +130,22 @@ void Simulation::adopt_converted() {
   }
   grid_.rebuild(true);
   step_->relink();
+}
+
+void Simulation::look_for_overlap() {
+  if (!mesh_) return;
+  const MeshOverlap found = mesh_->overlap(geometry_.h);
+  if (found.nodes == 0) return;
+  std::string at;
+  for (int a = 0; a < geometry_.dimension; ++a)
+    at += fmt::format("{}{} = {:.4g} m", a > 0 ? ", " : "", axis_name(scene_.frame, a),
+                      found.place[static_cast<std::size_t>(a)]);
+  warnings_.add(
+      "self_overlap", time(),
+      fmt::format("body '{}' lies on itself, {} nodes of the grid are filled twice, most "
+                  "about {}: elements have no contact with those of their own body; "
+                  "kinematics: mpm has, or failure: {{action: convert}}",
+                  bodies_[static_cast<std::size_t>(found.body)]->name(), found.nodes, at));
 }
 
 Totals Simulation::totals_of_mesh(int s) const {

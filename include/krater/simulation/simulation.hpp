@@ -80,6 +80,8 @@ class Simulation {
   void judge_energy(bool last) const;
   /// How the elements are, for a row of the history: what is said of it too.
   void look_at_elements();
+  /// Whether they lie on themselves, for a frame: it takes longer.
+  void look_for_overlap();
   const MeshHealth& elements() const { return health_; }  ///< as last looked at
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }

@@ -27,6 +27,17 @@ struct MeshHealth {
   double hourglass_share() const { return internal > 0 ? hourglass / internal : 0; }
 };
 
+/// Where bodies fill space twice: an element's own neighbours do not see one that comes from
+/// elsewhere, for a body has no contact with itself. At nodes i of cells of edge h
+///   phi_i = h^-dim sum_e int_e N_i dV,   N_i the hat functions,
+/// is 1 inside a body however its elements are shaped, and 2 where it lies on itself.
+struct MeshOverlap {
+  std::size_t nodes = 0;  ///< with phi > 1.2
+  double most = 0;        ///< greatest phi
+  int body = -1;          ///< there
+  Triple place{};         ///< [m]
+};
+
 /// Least j of an element with these corners, in two dimensions by the first two axes.
 double least_corner(int dimension, std::span<const Triple> corners);
 

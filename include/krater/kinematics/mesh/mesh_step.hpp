@@ -123,7 +123,8 @@ class MeshStep final : public Kinematics {
   std::size_t memory() const;       ///< of nodes and elements [bytes]
   double hourglass_energy() const;  ///< part of the internal energy [J]
   MeshHealth health() const;
-  struct Elements;                ///< of one body
+  MeshOverlap overlap(double cell) const;  ///< of each body with itself
+  struct Elements;                         ///< of one body
   const Mesh& mesh(int s) const;  ///< nodes as they were at the start; elements in their order
   std::size_t node_count(int s) const;
   Triple position(int s, std::size_t node) const;
