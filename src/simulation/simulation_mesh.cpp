@@ -96,10 +96,12 @@ void Simulation::place_meshes() {
   if (!mesh_) return;
   mesh_->start();
   health_ = mesh_->health();
-  if (scene_.contact.active)
-    encounter_ = std::make_unique<MeshContact>(
-        scene_.frame, scene_.contact,
-        MeshContact::Parts{*mesh_, grid_, contact_, boundary_, rigid_, audit_, impulses_});
+  if (!scene_.contact.active) return;
+  double fastest = 0;
+  for (const auto& body : bodies_) fastest = std::max(fastest, body->initial_sound_speed());
+  encounter_ = std::make_unique<MeshContact>(
+      scene_.frame, scene_.contact,
+      MeshContact::Parts{*mesh_, grid_, contact_, boundary_, rigid_, audit_, impulses_, fastest});
 }
 
 void Simulation::look_at_elements() {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kPasses = 3;
 constexpr double kTakenBack = 0.1;  // share of an overlap, per step
 constexpr double kNoFaster = 0.05;  // than this share of the approach, or ...
-constexpr double kCreep = 5e-4;     // ... cells per step
+constexpr double kCreep = 1e-3;     // ... of the speed of sound
 constexpr double kTouch = 0.05;     // cells: gap at which points touch (contact/contact_joint.cpp)
 
 }  // namespace
@@ -102,7 +102,7 @@ double MeshContact::allowed(const Meeting& m, double closing, double dt) const {
   const double closed = m.gap / dt;
   if (m.gap >= 0) return closed;
   return -std::min(-kTakenBack * closed,
-                   std::max(kNoFaster * std::abs(closing), kCreep * cell_ / dt));
+                   std::max(kNoFaster * std::abs(closing), kCreep * parts_.sound_speed));
 }
 
 void MeshContact::exchange(Meeting& m, double dt) {

@@ -15,7 +15,7 @@
 /// g = (xbar_B - xbar_A) . n the bodies may come no nearer than g in a step:
 ///   J_n = m_A m_B/(m_A + m_B) max(0, (v_A - v_B) . n - g/dt),   J_t = min(mu J_n, sticking),
 /// and where they overlap, g < 0, a tenth of it is taken back, not faster than a twentieth of their
-/// approach or 5e-4 cells a step. They never pull. The nodes get it back by the adjoint,
+/// approach or 1e-3 of the speed of sound. They never pull. The nodes get it back by the adjoint,
 ///   dv_I = 1/m_I sum_q m_qI sum_i S_iq dv_i,
 /// which keeps momentum exactly and never gives energy; as it smooths over a cell, there are three
 /// passes. What is lost of motion is heat of the nodes that were pushed, by m_I |dv_I|^2.
@@ -59,6 +59,7 @@ class MeshContact final : public Encounter {
     RigidBodies& rigid;
     Audit& audit;
     Impulses& impulses;
+    double sound_speed;  ///< greatest of the bodies, undeformed [m/s]
   };
   MeshContact(Frame frame, const ContactOptions& options, const Parts& parts);
 
