@@ -9,7 +9,10 @@ import os
 import sys
 
 import h5py
-import numpy as np
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
 from validate_impacts import Scale, discussion, histories, shapes, value  # noqa: E402
@@ -63,11 +66,42 @@ output: {{frames: 5 us, history: 0.5 us}}
 """
 
 
-def head(run, number):
+PAIR = """title: Two bars of elements, 2000 m/s (CCF 4.1)
+frame: 3d
+grid: {{cell: 0.5 mm, box: {{min: [-20 mm, -20 mm, -60 mm], max: [20 mm, 20 mm, 80 mm]}}}}
+time: {{end: {end} us, energy_error: off}}
+contact: {{friction: 0}}
+materials:
+  metal:
+    density: 7750
+    youngs_modulus: 310 GPa
+    poisson_ratio: 0.3
+    eos: linear
+    strength: {{von_mises: {{Y: 0.85 GPa, H: 0.55 GPa}}}}
+    viscosity: {{q_lin: 0.3, q_quad: 2.0}}
+    rate: {rate}
+bodies:
+  target:
+    material: metal
+    shape: {{box: {{min: [-1.25 mm, -1.25 mm, 0], max: [1.25 mm, 1.25 mm, 50 mm]}}}}
+    kinematics: {{lagrangian_mesh: {{element: 0.5 mm, hourglass: {held}, reference: {reference}}}}}
+  bar:
+    material: metal
+    shape: {{box: {{min: [-1.25 mm, -1.25 mm, -50 mm], max: [1.25 mm, 1.25 mm, 0]}}}}
+    velocity: [0, 0, 2000 m/s]
+    kinematics: {{lagrangian_mesh: {{element: 0.5 mm, hourglass: {held}, reference: {reference}}}}}
+output: {{frames: 5 us, history: 0.5 us}}
+"""
+GAUGES = ("gauges={edge: {body: plate, at: [8.35 mm, 0], fields: [plastic_strain], every: 0.1 us}, "
+          "front: {body: projectile, at: [0, 0], fields: [velocity_z, strain_zz], every: 0.1 us}, "
+          "rear: {body: projectile, at: [0, 24.7 mm], fields: [strain_zz], every: 0.1 us}}")
+
+
+def head(run, number, body="bar"):
     """Widest nodes along the sides over widest along the diagonals, seen from the end."""
     path = os.path.join(run.folder, "frames", f"{number:06d}.h5")
     with h5py.File(path) as file:
-        x = file["bar/nodes/coordinates"][()][:, :2]
+        x = file[f"{body}/nodes/coordinates"][()][:, :2]
     turned = x @ np.array([[1, 1], [1, -1]]) / np.sqrt(2)
     return np.abs(x).max() / np.abs(turned).max()
 
@@ -100,9 +134,32 @@ def walls(study):
                      "residual", "steps", "wall time s (1 thread)"], rows)
 
 
-def elements(body, erode="", size="", reference="current"):
+def pairs(study):
+    """Both bars, by contact."""
+    rows = []
+    cases = [(rate, held, reference, 5) for rate in ("truesdell", "jaumann", "green_naghdi")
+             for held in ("assumed_strain", "viscous") for reference in ("current", "initial")]
+    cases += [("truesdell", held, reference, 10) for held in ("assumed_strain", "viscous") for reference in ("current", "initial")]
+    for rate, held, reference, end in cases:
+        run = study.run_text(f"pair_{rate}_{held}_{reference}_{end}",
+                             PAIR.format(rate=rate, held=held, reference=reference, end=end), 20 * end / 5)
+        name = f"{rate}, {held}, {reference}, to {end} µs"
+        if run is None:
+            rows.append([name] + ["-"] * 8)
+            continue
+        audit = run.summary["audit"]
+        heads = " / ".join(f"{head(run, end // 5, body):.2f}" for body in ("bar", "target"))
+        rows.append([name, heads, audit["folded_elements"], f"{audit['least_corner_jacobian']:.2f}",
+                     f"{100 * audit['hourglass_share']:.1f}", f"{100 * audit['contact_heat'] / audit['initial_energy']:.2f}",
+                     f"{audit['energy_residual_fraction']:.0e}", run.summary["steps"], f"{run.wall:.1f}"])
+    study.add("## CCF's two bars, 2000 m/s", "CCF 4.1 with both bars, 5 x 5 x 50 elements each, which meet by contact without friction.")
+    study.add_table(["rate, hourglass, reference", "sides/diagonals of striker / target", "folded elements", "least corner",
+                     "hourglass share %", "contact takes of the energy %", "residual", "steps", "wall time s (1 thread)"], rows)
+
+
+def elements(body, erode="", size="", reference="current", action="erode"):
     parts = [f"reference: {reference}", *([f"element: {size}"] if size else []),
-             *([f"failure: {{action: erode, when: {{{erode}}}}}"] if erode else [])]
+             *([f"failure: {{action: {action}, when: {{{erode}}}}}"] if erode else [])]
     return f"bodies.{body}.kinematics={{lagrangian_mesh: {{{', '.join(parts)}}}}}"
 
 
@@ -125,8 +182,48 @@ def eroded(run):
     if run is None or "eroded_elements" not in run.summary["audit"]:
         return "-"
     audit = run.summary["audit"]
-    causes = [f"{n} {name}" for name, n in audit.get("eroded_by", {}).items() if n]
-    return f"{audit['eroded_elements']}" + (f" ({', '.join(causes)})" if len(causes) > 1 else "")
+    word = "converted" if audit["converted_elements"] else "eroded"
+    causes = [f"{n} {name}" for name, n in audit.get(f"{word}_by", {}).items() if n]
+    return f"{audit[f'{word}_elements']}" + (" to points" if word == "converted" else "") + (
+        f" ({', '.join(causes)})" if len(causes) > 1 else "")
+
+
+def gauge(run, name, field):
+    """Times [s] and values of a gauge's field."""
+    path = os.path.join(run.folder, f"gauge_{name}.csv")
+    with open(path, encoding="utf-8") as file:
+        titles = [title.split(" ")[0].strip('"') for title in next(file).split(",")]
+    table = np.genfromtxt(path, delimiter=",", skip_header=1)
+    return table[:, 0], table[:, titles.index(field)]
+
+
+def spear_figures(runs):
+    """What SPEAR's Figures 12 to 17 draw, all models in one picture."""
+    figure, grid = plt.subplots(2, 3, figsize=(15, 8), layout="constrained")
+    axes = grid.ravel()
+    for name, run in runs.items():
+        if run is None:
+            continue
+        history = run.history()
+        for panel, gauge_name, field, sign in ((0, "front", "velocity_z", -1), (2, "edge", "plastic_strain", 1),
+                                               (3, "front", "strain_zz", 1), (4, "rear", "strain_zz", 1)):
+            time, values = gauge(run, gauge_name, field)
+            axes[panel].plot(1e6 * time, sign * values, label=name, lw=1)
+        time = np.linspace(0, history["time"][-1], 601)
+        speed = -np.interp(time, history["time"], history["projectile_velocity"])
+        axes[1].plot(1e6 * time, np.gradient(np.convolve(np.pad(speed, 5, "edge"), np.ones(11) / 11, "valid"), time) / 1e6, label=name, lw=1)
+        line, = axes[5].plot(1e6 * history["time"], 1e-3 * history["kinetic_energy"], label=name, lw=1)
+        axes[5].plot(1e6 * history["time"], 1e-3 * history["internal_energy"], "--", color=line.get_color(), lw=1)
+    titles = ("12: velocity of the projectile's front, on the axis [m/s]", "13: acceleration of the projectile, mean over 1 µs [km/s per ms]",
+              "14: plastic strain of the plate at the edge of contact", "15: strain of the front face, on the axis, ln(l/l0)",
+              "16: strain of the rear face, on the axis, ln(l/l0)", "17: kinetic (full) and internal (dashed) energy [kJ]")
+    for panel, title in zip(axes, titles):
+        panel.set_title(title, fontsize=10)
+        panel.set_xlabel("time [µs]")
+        panel.grid(alpha=0.3)
+    axes[0].legend(fontsize=8)
+    figure.savefig(os.path.join(os.path.dirname(os.path.abspath(__file__)), "spear_figures.png"), dpi=110)
+    plt.close(figure)
 
 
 def bars(study):
@@ -197,16 +294,18 @@ def spear(study):
         rows.append([name, speed_at(run, 12e-6), speed_at(run, 60e-6), eroded(run), *costs(run)])
         return run
 
-    def both(erode, size=""):
-        return [elements("plate", erode, size), elements("projectile", erode, size)]
+    def both(erode, size="", action="erode"):
+        return [elements("plate", erode, size, action=action), elements("projectile", erode, size, action=action)]
 
     kept = "plastic_strain: 1.0, jacobian: 0.05"
     for n, (cell, seconds) in SPEAR.items():
-        here = [f"grid.cell={cell}", *ROUND]
+        here = [f"grid.cell={cell}", *ROUND, GAUGES]
         models = {"points": ([], "points"), "elements": (both(kept), "elements"),
                   "projectile of elements, plate of points": ([elements("projectile", kept)], "mixed"),
                   "points removed when they fail": (["materials.aluminium.failure.action=remove"], "removed"),
-                  "elements eroded when they fail": (both("failed: true, jacobian: 0.05"), "failed")}
+                  "elements eroded when they fail": (both("failed: true, jacobian: 0.05"), "failed"),
+                  "elements that become points": (both(kept, action="convert"), "converted"),
+                  "elements that become points when they fail": (both("failed: true, jacobian: 0.05", action="convert"), "converted_failed")}
         for name, (settings, label) in models.items():
             run = add(f"{name}, {n} through the plate", f"{label}_{n}", [*here, *settings], seconds)
             if n == 12:
@@ -220,7 +319,10 @@ def spear(study):
     shapes(study, drawn, (12e-6, 36e-6, 60e-6), "spear.png", lambda run: Scale(run, "plastic_strain", 1.0),
            [-35, 35, -45, 28], "Plastic strain, 12 through the plate")
     histories(study, drawn, {"projectile_velocity": "whole projectile"}, "spear_velocities.png", "velocity [m/s]", -1.0)
-    study.add("![spear](spear.png)", "![velocities](spear_velocities.png)")
+    spear_figures(drawn)
+    study.add("![spear](spear.png)", "![velocities](spear_velocities.png)",
+              "What SPEAR's Figures 12 to 17 draw, by our models at 12 through the plate (its curves are pictures, and not copied):",
+              "![figures](spear_figures.png)")
 
     rows.clear()
     cell, seconds = SPEAR[12]
@@ -233,6 +335,13 @@ def spear(study):
     add("erosion of collapsed elements only", "collapsed", [*here, *both("jacobian: 0.05")], seconds)
     add("eroded at a corner of 0.2", "corner", [*here, *both("plastic_strain: 1.0, jacobian: 0.2")], seconds)
     add("no damage law", "no_damage", [*here, *both(kept)], seconds, (HELD, "    damage: card"))
+    for name, label, settings in (
+            ("velocity at the start on the rear nodes only", "rear_nodes", ['bodies.projectile.velocity=[0, "-970*(z>0.0242)"]']),
+            ("velocity on the rear face at all times, from rest", "rear_driven",
+             ["bodies.projectile.velocity=[0, 0]", "loads={drive: {body: projectile, face: z_max, velocity: [free, -970 m/s]}}"]),
+            ("velocity on all nodes, and on the rear face at all times", "all_driven",
+             ["loads={drive: {body: projectile, face: z_max, velocity: [free, -970 m/s]}}"])):
+        add(name, label, [*here, *both(kept), *settings], seconds)
     study.add("What moves it, elements at 12 through the plate, friction 0 and erosion at 1 where not said:")
     study.add_table(titles, rows)
 
@@ -250,6 +359,7 @@ def main():
               "Points (`kinematics: mpm`), elements (`lagrangian_mesh`), and both in one scene. One thread everywhere.")
     bars(study)
     walls(study)
+    pairs(study)
     taylor(study)
     plugging(study)
     spear(study)
