@@ -214,7 +214,7 @@ def spear_figures(runs):
         axes[1].plot(1e6 * time, np.gradient(np.convolve(np.pad(speed, 5, "edge"), np.ones(11) / 11, "valid"), time) / 1e6, label=name, lw=1)
         line, = axes[5].plot(1e6 * history["time"], 1e-3 * history["kinetic_energy"], label=name, lw=1)
         axes[5].plot(1e6 * history["time"], 1e-3 * history["internal_energy"], "--", color=line.get_color(), lw=1)
-    titles = ("12: velocity of the projectile's front, on the axis [m/s]", "13: acceleration of the projectile, mean over 1 µs [km/s per ms]",
+    titles = ("12: velocity of the projectile's front, on the axis [m/s]", "13: acceleration of the projectile, mean over 1 µs [10^6 m/s^2]",
               "14: plastic strain of the plate at the edge of contact", "15: strain of the front face, on the axis, ln(l/l0)",
               "16: strain of the rear face, on the axis, ln(l/l0)", "17: kinetic (full) and internal (dashed) energy [kJ]")
     for panel, title in zip(axes, titles):
