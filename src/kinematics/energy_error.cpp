@@ -40,7 +40,8 @@ std::array<Part, 4> parts(const Audit& a) {
       {{"energy_residual", "energy that is missing or came from nowhere: please report this scene"},
        {"numerical_heat",
         "dissipation that a material whose pressure does not know its energy cannot feel, " +
-            cause_of_heat(a) + "; an equation of state makes it heat"},
+            cause_of_heat(a) +
+            "; an equation of state whose pressure knows it (gamma0 > 0) makes it heat"},
        {"carried_energy",
         "heat that matter was too cold to give: a viscosity block, a smaller time.cfl, or "
         "method.transfer: tflip lowers it"},
