@@ -146,6 +146,9 @@ void print_own_mesh(const Scene& scene, const BodyOptions& body, double volume) 
              100 * (volume / whole - 1));
 }
 
+// Edge of an element up to which its points have its angular momentum [cells] (conversion.hpp).
+constexpr double kTurns = 1.15;
+
 void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
   fmt::print("  lagrangian mesh: ");
   if (body.mesh->mesh)
@@ -155,6 +158,14 @@ void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
   constexpr std::array kinds{"assumed strain", "stiffness", "viscous"};
   fmt::print("; hourglass: {}{}\n", kinds[static_cast<std::size_t>(body.mesh->hourglass.kind)],
              body.mesh->reference == ElementReference::initial ? ", on the initial reference" : "");
+  if (!body.mesh->erosion.any()) return;
+  fmt::print("  elements that fail as `when` says {}\n",
+             body.mesh->converts ? "become points" : "are eroded");
+  if (body.mesh->converts && body.mesh->element > kTurns * scene.grid.cell)
+    fmt::print(
+        "  beyond {} cells an element that becomes points loses angular momentum: use a smaller "
+        "element or a larger grid.cell\n",
+        kTurns);
 }
 
 void print_body(const Simulation& sim, const Scene& scene, int index, int coarser) {
