@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "krater/core/errors.hpp"
+#include "krater/kinematics/mesh/mesh_contact.hpp"
+#include "krater/kinematics/sph/sph_contact.hpp"
 #include "krater/simulation/material_plan.hpp"
 #include "krater/simulation/simulation.hpp"
 
@@ -77,10 +79,28 @@ void Simulation::place_meshes() {
   if (!mesh_) return;
   mesh_->start();
   health_ = mesh_->health();
-  if (scene_.contact.active)
+}
+
+/// Contact of bodies that are not all of points.
+void Simulation::let_bodies_meet() {
+  if (!scene_.contact.active || (!mesh_ && !sph_)) return;
+  if (!sph_) {
     encounter_ = std::make_unique<MeshContact>(
         scene_.frame, scene_.contact,
         MeshContact::Parts{*mesh_, grid_, contact_, boundary_, rigid_, audit_, impulses_});
+    return;
+  }
+  std::vector<bool> fluids;
+  for (const auto& body : bodies_) fluids.push_back(body->is_fluid());
+  auto contact = std::make_unique<SphContact>(
+      scene_.contact, std::move(fluids),
+      SphContact::Parts{*sph_, grid_, boundary_, rigid_, audit_, impulses_});
+  if (mesh_)
+    contact->set_meshes(std::make_unique<MeshContact>(
+        scene_.frame, scene_.contact,
+        MeshContact::Parts{*mesh_, contact->nodes(), contact->fillings(), boundary_, rigid_, audit_,
+                           impulses_, true}));
+  encounter_ = std::move(contact);
 }
 
 void Simulation::look_at_elements() {
