@@ -116,10 +116,21 @@ void print_particles(const Simulation& sim) {
   fmt::print("  time step {:.4g} s, {}\n", sim.stable_step(), sim.describe_limit());
 }
 
+const char* kernel_name(SphKernel kernel) {
+  switch (kernel) {
+    case SphKernel::wendland_c2:
+      return "Wendland C2";
+    case SphKernel::quadratic:
+      return "quadratic";
+    case SphKernel::cubic_spline:
+      break;
+  }
+  return "cubic spline";
+}
+
 void print_sph(const SphOptions& sph) {
   fmt::print("  sph: spacing {:.4g} m, smoothing length {:.4g} m, {}, {} gradients, reference {}\n",
-             sph.spacing, sph.length(),
-             sph.kernel == SphKernel::cubic_spline ? "cubic spline" : "Wendland C2",
+             sph.spacing, sph.length(), kernel_name(sph.kernel),
              sph.correction == SphCorrection::linear ? "corrected" : "uncorrected",
              sph.reference == SphReference::current ? "current" : "initial");
 }

@@ -248,6 +248,7 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
     for (int a = 0; a < group.fields; ++a)
       for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
         if (!(mass(b) > 0)) continue;
+        if (!may_meet(body_of(block(a).field), body_of(block(b).field))) continue;
         if (rigid.find(body_of(block(a).field)) && rigid.find(body_of(block(b).field))) continue;
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);

@@ -124,6 +124,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   place_meshes();
   require_faces(*this);
   place_particles();
+  let_bodies_meet();
   find_movers();
   choose_first_step();
   const Totals start = totals();

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
+#include "krater/kinematics/mesh/mesh_contact.hpp"
 #include "krater/kinematics/mesh/mesh_loads.hpp"
 #include "krater/kinematics/mpm/migrate.hpp"
+#include "krater/kinematics/sph/sph_contact.hpp"
 #include "krater/simulation/material_plan.hpp"
 #include "krater/simulation/simulation.hpp"
 
@@ -96,12 +98,30 @@ void Simulation::place_meshes() {
   if (!mesh_) return;
   mesh_->start();
   health_ = mesh_->health();
-  if (!scene_.contact.active) return;
+}
+
+/// Contact of bodies that are not all of points.
+void Simulation::let_bodies_meet() {
+  if (!scene_.contact.active || (!mesh_ && !sph_)) return;
   double fastest = 0;
   for (const auto& body : bodies_) fastest = std::max(fastest, body->initial_sound_speed());
-  encounter_ = std::make_unique<MeshContact>(
-      scene_.frame, scene_.contact,
-      MeshContact::Parts{*mesh_, grid_, contact_, boundary_, rigid_, audit_, impulses_, fastest});
+  if (!sph_) {
+    encounter_ = std::make_unique<MeshContact>(
+        scene_.frame, scene_.contact,
+        MeshContact::Parts{*mesh_, grid_, contact_, boundary_, rigid_, audit_, impulses_, fastest});
+    return;
+  }
+  std::vector<bool> fluids;
+  for (const auto& body : bodies_) fluids.push_back(body->is_fluid());
+  auto contact = std::make_unique<SphContact>(
+      scene_.contact, std::move(fluids),
+      SphContact::Parts{*sph_, grid_, boundary_, rigid_, audit_, impulses_});
+  if (mesh_)
+    contact->set_meshes(std::make_unique<MeshContact>(
+        scene_.frame, scene_.contact,
+        MeshContact::Parts{*mesh_, contact->nodes(), contact->fillings(), boundary_, rigid_, audit_,
+                           impulses_, fastest, true}));
+  encounter_ = std::move(contact);
 }
 
 void Simulation::look_at_elements() {

@@ -32,14 +32,15 @@ REFUSED = {
     "the method's reference": (["method.reference=initial"], "sph: {reference: initial}"),
     "a load": (["damping={mass: 1e3 1/s}"], "neither body_force, damping nor loads"),
     "a side that drives": (["grid.boundary.z_max={velocity: [0, 0, -1 m/s]}"], "no side that drives"),
-    "another body": (["bodies.ball={material: copper, shape: {sphere: {radius: 2 mm, center: [8 mm, 8 mm, 8 mm]}}}"],
-                     "does not meet other bodies"),
+    "another body without contact":
+        (["bodies.ball={material: copper, shape: {sphere: {radius: 2 mm, center: [8 mm, 8 mm, 8 mm]}}}"],
+         "add a block contact"),
 }
 
 
 def answers(scene):
     checked = krater("check", scene, "--set", "method.transfer=apic")
-    check("sph: spacing 0.000762 m, smoothing length 0.0009144 m, cubic spline" in checked.text
+    check("sph: spacing 0.000762 m, smoothing length 0.0009144 m, quadratic" in checked.text
           and "neighbours in lists" in checked.text and "body 'rod', particle" in checked.text,
           "check tells of spacing, neighbours and the particle that sets the step", checked.text[-900:])
     check("method.transfer says how points and grid exchange" in checked.text, "check doubts keys of the other method")

@@ -73,6 +73,8 @@ class ContactSet {
              bool linear, const ContactOptions& options);
   bool active() const { return options_.active; }
   void note_impulses() { notes_ = true; }  ///< from now on
+  /// Pairs of which neither body is listed meet elsewhere.
+  void only_pairs_with(std::vector<bool> by_body) { listed_ = std::move(by_body); }
   void set_fluids(std::vector<bool> by_body) { fluids_ = std::move(by_body); }
   /// Find the blocks that fields share; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
@@ -149,6 +151,10 @@ class ContactSet {
     return static_cast<std::size_t>(body) < fluids_.size() &&
            fluids_[static_cast<std::size_t>(body)];
   }
+  bool may_meet(int body_a, int body_b) const {
+    return listed_.empty() || listed_[static_cast<std::size_t>(body_a)] ||
+           listed_[static_cast<std::size_t>(body_b)];
+  }
   int mirrored(int axis, int index) const;
   void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
                      Scratch& scratch, const RigidBodies& rigid) const;
@@ -181,6 +187,7 @@ class ContactSet {
   bool hoop_, linear_;
   ContactOptions options_;
   bool notes_ = false;
+  std::vector<bool> listed_;                ///< by body, of pairs that meet; empty: all
   std::vector<bool> fluids_;                ///< by body; beyond the list: no
   int edge_, padded_, stride_[3]{}, size_;  ///< block edge; padded edge, strides and size
   std::vector<Group> groups_;

@@ -10,7 +10,6 @@
 
 #include "krater/kinematics/clock.hpp"
 #include "krater/kinematics/loads.hpp"
-#include "krater/kinematics/mesh/mesh_contact.hpp"
 #include "krater/kinematics/mesh/mesh_step.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
@@ -130,6 +129,7 @@ class Simulation {
   void find_movers();
   void find_limit();
   void place_particles();
+  void let_bodies_meet();
   Totals totals_of_particles(int s) const;
   void restore_particles(int body, const Checkpoint& checkpoint);
   void place_meshes();
@@ -181,7 +181,7 @@ class Simulation {
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;
-  std::unique_ptr<MeshContact> encounter_;  ///< null: no body of elements meets another
+  std::unique_ptr<Encounter> encounter_;  ///< null: only bodies of points meet
   std::unique_ptr<SphStep> sph_;
   std::vector<Kinematics*> movers_;
   MeshHealth health_;

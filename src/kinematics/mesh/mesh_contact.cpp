@@ -37,6 +37,12 @@ void MeshContact::find_faces() {
 }
 
 void MeshContact::push(double dt) {
+  begin();
+  for (int k = 0; k < kPasses; ++k) pass(dt);
+  end();
+}
+
+void MeshContact::begin() {
   bodies_ = parts_.mesh.nodes();
   find_faces();
   carriers_.clear();
@@ -57,7 +63,9 @@ void MeshContact::push(double dt) {
   parts_.mesh.hold_nodes();
   list_touched();
   note_changes(-1);  // dv with contact less dv without it
-  for (int k = 0; k < kPasses; ++k) pass(dt);
+}
+
+void MeshContact::end() {
   note_changes(1);
   note_impulses();
 }
@@ -146,6 +154,7 @@ double MeshContact::friction_between(const Meeting& m) const {
 
 /// Momenta to the grid, exchange, and back.
 void MeshContact::pass(double dt) {
+  if (meetings_.empty()) return;
   for (Meeting& m : meetings_) m.side[0].momentum = m.side[1].momentum = {};
   for (const Carrier& q : carriers_) {
     Triple p{};
@@ -180,10 +189,8 @@ void MeshContact::pass(double dt) {
   }
 }
 
-/// What contact took from motion becomes heat of the nodes that were pushed, by m |dv|^2.
-Standing MeshContact::book() {
-  double taken = rigid_work_, pushed = 0, in_points = 0;
-  std::vector<double> squares;
+EncounterLoss MeshContact::loss() const {
+  EncounterLoss out{rigid_work_, 0};
   for (const Touched& t : touched_) {
     const auto n = static_cast<std::size_t>(t.node);
     const double *record = bodies_[t.body].records + kNode * n,
@@ -191,37 +198,59 @@ Standing MeshContact::book() {
     double work = 0;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
       work += t.by_contact[a] * (record[kVelocity + a] + 0.5 * change[a]);
-    squares.push_back(dot(t.by_contact, t.by_contact));
-    taken -= record[kMass] * work;
-    pushed += record[kMass] * squares.back();
+    out.taken -= record[kMass] * work;
+    out.pushed += record[kMass] * dot(t.by_contact, t.by_contact);
   }
   for (const Meeting& m : meetings_) {
     const Side& side = m.side[1];
-    if (side.record == nullptr || m.rigid) continue;
+    if (!accounts_for(m)) continue;
     double work = 0;
     for (std::size_t a = 0; a < 3; ++a)
       work -= m.impulse[a] * (side.record[a] - 0.5 * side.record[moved::change + a]);
-    taken -= work;
-    pushed += dot(m.impulse, m.impulse) / side.mass;
+    out.taken -= work;
+    out.pushed += dot(m.impulse, m.impulse) / side.mass;
   }
-  if (!(pushed > 0)) return {};
-  for (std::size_t k = 0; k < touched_.size(); ++k) {
-    const auto n = static_cast<std::size_t>(touched_[k].node);
-    bodies_[touched_[k].body].records[kNode * n + kHeat] += taken / pushed * squares[k];
-  }
+  return out;
+}
+
+/// What contact took from motion becomes heat of the nodes that were pushed, by m_I |dv_I|^2.
+Standing MeshContact::warm(const EncounterLoss& all) {
+  if (!(all.pushed > 0)) return {};
+  double in_points = 0;
+  for (const Touched& t : touched_)
+    bodies_[t.body].records[kNode * static_cast<std::size_t>(t.node) + kHeat] +=
+        all.share() * dot(t.by_contact, t.by_contact);
   for (const Meeting& m : meetings_) {
-    if (m.side[1].record == nullptr || m.rigid) continue;
-    const double heat = taken / pushed * dot(m.impulse, m.impulse) / m.side[1].mass;
+    if (!accounts_for(m)) continue;
+    const double heat = all.share() * dot(m.impulse, m.impulse) / m.side[1].mass;
     m.side[1].record[moved::work] += heat / m.side[1].mass;
     in_points += heat;
   }
   if (in_points != 0) parts_.boundary.mirror_work();
-  parts_.audit.contact_heat += taken;
   parts_.audit.transfer_loss -= in_points;  // MPM's own account takes it for that
   parts_.audit.friction_work += friction_;
   parts_.impulses.add(given_);
   Standing out{};
   out.contact_pairs = pairs_;
+  return out;
+}
+
+Standing MeshContact::book() {
+  const EncounterLoss all = loss();
+  if (all.pushed > 0) parts_.audit.contact_heat += all.taken;
+  return warm(all);
+}
+
+std::vector<BodyBox> MeshContact::boxes() const {
+  std::vector<BodyBox> out;
+  for (const MeshNodes& b : parts_.mesh.nodes()) {
+    BodyBox of{b.body, {}};
+    for (std::size_t n = 0; n < b.count; ++n) {
+      const double* x = b.records + kNode * n;
+      of.box.hold({x[0], x[1], x[2]});
+    }
+    out.push_back(of);
+  }
   return out;
 }
 

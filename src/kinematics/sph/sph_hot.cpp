@@ -14,6 +14,7 @@ SphKernels* make(SphReference reference) {
 template <int Dim>
 SphKernels* make(SphKernel kernel, SphReference reference) {
   if (kernel == SphKernel::wendland_c2) return make<Dim, SphKernel::wendland_c2>(reference);
+  if (kernel == SphKernel::quadratic) return make<Dim, SphKernel::quadratic>(reference);
   return make<Dim, SphKernel::cubic_spline>(reference);
 }
 

@@ -31,6 +31,8 @@ SphData SphStep::data(Particles& b) const {
           .q_lin = b.made_of.q_lin,
           .q_quad = b.made_of.q_quad,
           .zero_energy = b.made_of.options.zero_energy,
+          .artificial_stress = b.fixed() ? 0 : b.made_of.options.artificial_stress,
+          .spacing = b.made_of.options.spacing,
           .corrects = b.made_of.options.correction == SphCorrection::linear};
 }
 

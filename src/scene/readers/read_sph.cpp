@@ -37,10 +37,14 @@ Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& r
   out.zero_energy =
       block.number({"zero_energy", "1", Range::fraction, out.zero_energy,
                     "viscosity of pairs that holds modes the gradients do not see; 0: none"});
-  out.kernel = block.choice<SphKernel>(
-      "kernel",
-      {{"cubic_spline", SphKernel::cubic_spline}, {"wendland_c2", SphKernel::wendland_c2}},
-      out.kernel);
+  out.artificial_stress = block.number(
+      {"artificial_stress", "1", Range::fraction, out.artificial_stress,
+       "share of tension taken back between close particles; 0: none, 0.3: of the source"});
+  out.kernel = block.choice<SphKernel>("kernel",
+                                       {{"cubic_spline", SphKernel::cubic_spline},
+                                        {"wendland_c2", SphKernel::wendland_c2},
+                                        {"quadratic", SphKernel::quadratic}},
+                                       out.kernel);
   out.correction = block.choice<SphCorrection>(
       "correction", {{"linear", SphCorrection::linear}, {"none", SphCorrection::none}},
       out.correction);
@@ -73,12 +77,16 @@ void check_particles_of(const BodyOptions& body, const Node& node, Reading& read
 
 void check_particles(Reading& reading) {
   const Scene& scene = reading.scene;
-  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                  [](const BodyOptions& body) { return body.sph.has_value(); });
-  if (found == scene.bodies.end()) return;
-  const Node& node = *reading.root.find("bodies")->find(found->name);
-  const Node& place = *node.find("kinematics");
-  check_particles_of(*found, node, reading);
+  const BodyOptions* first = nullptr;
+  bool points = false;
+  for (const BodyOptions& body : scene.bodies) {
+    points = points || (!body.sph && !body.mesh && !body.rigid());
+    if (!body.sph) continue;
+    if (first == nullptr) first = &body;
+    check_particles_of(body, *reading.root.find("bodies")->find(body.name), reading);
+  }
+  if (first == nullptr) return;
+  const Node& place = *reading.root.find("bodies")->find(first->name)->find("kinematics");
   const auto fail = [&](const std::string& what) {
     reading.problems.add(place.file, place.line, place.path, "kinematics sph " + what);
   };
@@ -86,10 +94,16 @@ void check_particles(Reading& reading) {
     fail(
         "is not known in axial symmetry: use frame: 3d (a quarter with x_min and y_min: symmetry)"
         ", plane_strain, or another kinematics");
-  if (scene.bodies.size() > 1)
+  if (scene.bodies.size() > 1 && !scene.contact.active)
+    fail("meets other bodies by contact only: add a block contact: {friction: 0}");
+  if (scene.contact.normal != ContactNormal::volume_gradient)
+    fail("meets other bodies by contact: {normal: volume_gradient}");
+  const MethodOptions& method = scene.method;
+  if (points && (method.shape != Shape::quadratic_bspline || method.update != Update::usl ||
+                 method.transfer == Transfer::xpic))
     fail(
-        "does not meet other bodies yet: leave it alone in its scene, against walls, or give all "
-        "bodies another kinematics");
+        "meets bodies of points whose method has shape quadratic_bspline, update usl and a "
+        "transfer other than xpic");
   if (scene.method.reference != Reference::current)
     fail(
         "has a reference of its own: leave out method.reference and say sph: {reference: initial}");

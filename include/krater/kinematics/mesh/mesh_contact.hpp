@@ -43,14 +43,15 @@
 #include "krater/contact/impulses.hpp"
 #include "krater/contact/options.hpp"
 #include "krater/geometry/frame.hpp"
-#include "krater/kinematics/kinematics.hpp"
+#include "krater/kinematics/encounter.hpp"
 #include "krater/kinematics/mesh/mesh_step.hpp"
 
 namespace krater {
 
-class MeshContact final : public Encounter {
+class MeshContact final : public PassingEncounter {
  public:
-  /// What must outlive it. `grid` holds the velocity fields of all bodies of points, each its own.
+  /// What must outlive it. `grid` holds the velocity fields of all bodies of points, each its own;
+  /// `lent`: another encounter fills it anew for every pass, and accounts for its nodes.
   struct Parts {
     MeshStep& mesh;
     BlockGrid& grid;
@@ -60,11 +61,18 @@ class MeshContact final : public Encounter {
     Audit& audit;
     Impulses& impulses;
     double sound_speed;  ///< greatest of the bodies, undeformed [m/s]
+    bool lent = false;
   };
   MeshContact(Frame frame, const ContactOptions& options, const Parts& parts);
 
   void push(double dt) override;
   Standing book() override;
+  std::vector<BodyBox> boxes() const override;
+  void begin() override;
+  void pass(double dt) override;
+  void end() override;
+  EncounterLoss loss() const override;
+  Standing warm(const EncounterLoss& all) override;
 
   static constexpr std::size_t kSupport = 3;  ///< nodes of S along an axis
 
@@ -141,7 +149,10 @@ class MeshContact final : public Encounter {
   /// dv of the nodes that may be pushed into by_contact, with a sign.
   void note_changes(double sign);
   void list_touched();
-  void pass(double dt);
+  /// Its node is this encounter's to account for.
+  bool accounts_for(const Meeting& meeting) const {
+    return meeting.side[1].record != nullptr && !meeting.rigid && !parts_.lent;
+  }
   void exchange(Meeting& meeting, double dt);
   double allowed(const Meeting& meeting, double closing, double dt) const;
   double friction_between(const Meeting& meeting) const;

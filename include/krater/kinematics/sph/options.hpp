@@ -5,7 +5,7 @@
 
 namespace krater {
 
-enum class SphKernel { cubic_spline, wendland_c2 };
+enum class SphKernel { cubic_spline, wendland_c2, quadratic };
 /// Whether gradients are corrected to be exact for linear fields (kinematics/sph/correction.hpp).
 enum class SphCorrection { linear, none };
 /// Where weights and neighbours are those of: the places now, or those at the start.
@@ -14,10 +14,11 @@ enum class SphReference { current, initial };
 struct SphOptions {
   double spacing = 0;      ///< of the particles at the start, dx [m]
   double smoothing = 1.2;  ///< h/dx
-  SphKernel kernel = SphKernel::cubic_spline;
+  SphKernel kernel = SphKernel::quadratic;
   SphCorrection correction = SphCorrection::linear;
   SphReference reference = SphReference::current;
-  double zero_energy = 0.1;  ///< coefficient of what holds modes that gradients do not see, 0: none
+  double zero_energy = 1;        ///< z of what holds modes that gradients do not see, 0: none
+  double artificial_stress = 0;  ///< eps, of the tension of close pairs, on `current`; 0: none
   double length() const { return smoothing * spacing; }  ///< h [m]
 };
 

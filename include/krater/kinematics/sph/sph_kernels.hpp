@@ -58,6 +58,8 @@ struct SphData {
   double h;        ///< [m]
   double density;  ///< at the start
   double q_lin, q_quad, zero_energy;
+  double artificial_stress;
+  double spacing;  ///< at the start [m]
   bool corrects;
 };
 

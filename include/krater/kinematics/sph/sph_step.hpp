@@ -9,7 +9,7 @@
 /// the particles (kinematics/sides.hpp), half a spacing from the plane, for a particle is as wide;
 /// what started nearer stays as near. What a side takes from the motion of a particle is its heat.
 /// Kinetic + internal energy is constant to round-off.
-/// Not here: contact between bodies, axial symmetry, sides that drive (issue 28).
+/// Not here: axial symmetry, sides that drive (issue 28).
 #include <memory>
 #include <vector>
 
@@ -86,6 +86,7 @@ class SphStep final : public Kinematics {
   SphHealth health() const;
   std::size_t flat_count() const;  ///< as in health(), which looks at all lists
   struct Particles;                ///< of one body
+  Particles& particles(int s) { return *bodies_[static_cast<std::size_t>(s)]; }
 
  private:
   struct SideSums {

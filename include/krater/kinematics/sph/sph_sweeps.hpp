@@ -7,11 +7,17 @@
 ///   A_i = S_i K_i,   f_i = sum_j V_i V_j (A_i + A_j) grad W_ij
 ///   W_i = dt V sigma : (L(v-) + L(v+))/2,   sum_i W_i = - dt sum_i f_i . (v- + v+)/2 to round-off
 ///   e <- e + W/m + heat of sides,   f = I + dt L(v+), rho by det f,   x <- x + dt v+
-/// What gradients do not see is held by a viscosity of pairs along their line, of no effect on a
-/// linear field of velocity (after Ganzenmueller 2015, with dampers for his springs):
-///   h_i = z/(2h) sum_j V_i V_j (W'/r) (Z_i + Z_j) [v_ij.x_ij - x_ij.(D_i + D_j) x_ij/2] x_ij
-/// with x_ij the places now, all of v-, Z = rho c. Its work heats both alike: half of - h_ij.v_ij-,
-/// and - h_i.dv_i/2 of each, in sum - h.(v- + v+)/2.
+/// What gradients do not see is held by a viscosity of pairs along their line e = x_ij/|x_ij|:
+///   h_i = z/2 sum_j V_i V_j W' (Z_i + Z_j) [v_ij.e - x_ij.(D_i + D_j) e/2] e,   Z = rho c,
+/// x_ij the places now, all of v-. With z = 1 that is the pressure between two states that differ
+/// by what linear reconstruction leaves, in the acoustic Riemann problem of the pair (Parshikov and
+/// Medin 2002; Vila 1999), of no effect on a linear field of velocity. On `current` pairs in
+/// tension clump (Swegle, Hicks and Attaway 1995). Of the tension of a pair along its line,
+///   t = e.(A_i + A_j) e > 0,   a part min(1, eps (W_ij/W(dx))^4)
+/// is taken back (artificial stress of Gray, Monaghan and Swift 2001, eps 0.3; their powers of
+/// principal stresses push pairs apart that plastic flow brought close, and feed motion). Both
+/// forces are along x_ij, so that momenta are exact. Their work heats both alike: half of
+/// - h_ij.v_ij-, and - h_i.dv_i/2 of each, in sum - h.(v- + v+)/2.
 /// A pair gives both its particles the same force to the last bit, by its sign. e is that of
 /// t_{n+1/2} (BatchData::energy_share 0), as of elements (kinematics/mesh/mesh_sweeps.hpp).
 #pragma once
@@ -38,6 +44,9 @@ class Sweeps final : public SphKernels {
   static void sum_gradient(const SphData& d, const Own<Dim>& own, int g, Axes<Dim>& N,
                            SymAxes<Pack, Dim>& M);
   static constexpr LoadRecord at = load_record(Dim);
+  template <class Load>
+  static Pack tension_taken_back(const SphData& d, const WeightScale& scale, const Load& own,
+                                 const Load& near, const Pack (&x)[Dim], Pack squared);
   template <bool Held>
   static void sum_forces(const SphData& d, int first, int last);
   static Mat3<Pack> gradient(const SphData& d, const Axes<Dim>& N, const SymAxes<Pack, Dim>& K,
@@ -135,7 +144,9 @@ KRATER_FORCE_INLINE Pack particle_length(const SphData& d, Pack volume) {
 ///   l = h c_L/sqrt(c_L^2 + c^2).
 /// That motion is one of free corners, where corrected gradients are long: of blocks its period
 /// allows 1.02 to 1.5 times l/c_L (both weights, h/dx 1.2 to 1.8, Poisson's ratio 0 to 0.49, shaken
-/// by a quarter of dx, flattened to a third), of eight particles alone 0.68; without faces 1.9.
+/// by a quarter of dx, flattened to a third), of eight particles alone 0.68; without faces 1.9. The
+/// viscosity of pairs damps an alternating motion by 2 z c/d sum_j V_j |W'|, at most 2.33 z c/h
+/// (Wendland in the plane) and near corners by a fifth more, which adds 0.7 z c l/h to Q.
 template <int Dim>
 KRATER_FORCE_INLINE void note_limits(const SphData& d, const SphViews& view, int g,
                                      SphResult& out) {
@@ -146,7 +157,8 @@ KRATER_FORCE_INLINE void note_limits(const SphData& d, const SphViews& view, int
   const Pack per_length = (1 / d.h) * sqrt(1.0 + c * c / c_L_squared);
   const Pack closing = max(Pack(0.0), -tr_D), length = particle_length<Dim>(d, view.mass(g) / rho);
   const Pack viscous = per_length * length * fma((2.0 * d.q_quad) * length, closing, d.q_lin * c);
-  const Pack Qv = select(closing > Pack(0.0), viscous, Pack(0.0));
+  const Pack Qv = (0.7 * d.zero_energy / d.h) * c / per_length +
+                  select(closing > Pack(0.0), viscous, Pack(0.0));
   note_rate(d, per_length * (Qv + sqrt(fma(Qv, Qv, c_L_squared))), 0, g, out);
   note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
 }
@@ -196,11 +208,29 @@ void Sweeps<Dim, Kind, Reference>::correct(const SphData& d, int first, int last
   }
 }
 
+/// Of x_ij.(A_i + A_j) x_ij, where it pulls, a part eps (W_ij/W(dx))^4, at most all.
+template <int Dim, SphKernel Kind, SphReference Reference>
+template <class Load>
+KRATER_FORCE_INLINE Pack Sweeps<Dim, Kind, Reference>::tension_taken_back(
+    const SphData& d, const WeightScale& scale, const Load& own, const Load& near,
+    const Pack (&x)[Dim], Pack squared) {
+  Pack tension = 0.0;
+  for (int a = 0; a < Dim; ++a)
+    for (int b = 0; b < Dim; ++b) {
+      const int A = at.A + Dim * a + b;
+      tension = fma((own[A] + near[A]) * x[a], x[b], tension);
+    }
+  const double per_spacing = 1 / weight<Kind>(scale, d.spacing * d.spacing);
+  const Pack close = per_spacing * weight<Kind>(scale, squared), closer = close * close;
+  return min(Pack(1.0), d.artificial_stress * (closer * closer)) * max(Pack(0.0), tension);
+}
+
 template <int Dim, SphKernel Kind, SphReference Reference>
 template <bool Held>
 void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int last) {
   constexpr int lines = ((Held ? (fixed ? at.now + Dim : at.now) : at.v) + 7) / 8;
   const WeightScale scale = weight_scale<Kind>(Dim, d.h);
+  const Pack damped = 0.5 * d.zero_energy;
   for (int g = first; g < last; ++g) {
     Loads<lines> own, near;
     gather_loads(d.load + at.size * kLanes * g, at.size, kOwnLanes, own);
@@ -224,19 +254,26 @@ void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int l
         if constexpr (fixed)
           for (int a = 0; a < Dim; ++a) x[a] = own[at.now + a] - near[at.now + a];
         Pack parting = 0.0, linear = 0.0;  // v_ij.x_ij, x_ij.(D_i + D_j) x_ij
+        Pack squared_now = 0.0;
         for (int a = 0; a < Dim; ++a) {
+          squared_now = fma(x[a], x[a], squared_now);
           parting = fma(own[at.v + a] - near[at.v + a], x[a], parting);
           for (int b = 0; b < Dim; ++b) {
             const int D = at.D + SymAxes<Pack, Dim>::place(a, b);
             linear = fma((own[D] + near[D]) * x[a], x[b], linear);
           }
         }
-        const Pack pull = w * (own[at.Z] + near[at.Z]) * fnma(Pack(0.5), linear, parting);
+        const Pack per_square = 1.0 / max(squared_now, Pack(1e-280));
+        // Of a lane without a neighbour differences are zero, and w is not: they come first.
+        const Pack left = fnma(Pack(0.5), linear, parting) * sqrt(per_square);
+        Pack pull = damped * (own[at.Z] + near[at.Z]) * left * w;
+        if constexpr (!fixed)
+          pull = fnma(tension_taken_back(d, scale, own, near, x, squared) * per_square, w, pull);
         for (int a = 0; a < Dim; ++a) held[a] = fma(pull, x[a], held[a]);
         heat = fnma(pull, parting, heat);
       }
     }
-    const Pack strength = (0.5 * d.zero_energy / d.h) * own[3];
+    const Pack strength = own[3];
     for (int a = 0; a < Dim; ++a) {
       store(d.held + (4 * g + a) * kLanes, strength * held[a]);
       store(d.force + (3 * g + a) * kLanes, fma(own[3], f[a], strength * held[a]));
@@ -247,7 +284,7 @@ void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int l
 
 template <int Dim, SphKernel Kind, SphReference Reference>
 void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last) const {
-  if (d.zero_energy > 0)
+  if (d.zero_energy > 0 || d.artificial_stress > 0)
     sum_forces<true>(d, first, last);
   else
     sum_forces<false>(d, first, last);

@@ -5,6 +5,9 @@
 ///                  s = 10/(7 pi h^2), 1/(pi h^3)                         (Monaghan 2005, eq. 2.6)
 ///   Wendland C2    W = s (1 - q/2)^4 (1 + 2 q);  s = 7/(4 pi h^2), 21/(16 pi h^3)
 ///                                                           (Dehnen and Aly 2012, table 1)
+///   quadratic      W = s (1 - q/2)^2;  s = 3/(2 pi h^2), 15/(16 pi h^3)
+///                                                           (Johnson and Beissel 1996)
+/// whose slope grows all the way inwards, so that no pair that is pressed together yields.
 /// and their slopes by the distance, W'(r)/r: finite at r = 0, so that a particle may stand in its
 /// own list, or a lane that is empty for it, and adds nothing there. No gradient of a weight is
 /// longer than its h times W'/r at the inflexion.
@@ -25,8 +28,12 @@ struct WeightScale {
 template <SphKernel Kind>
 KRATER_FORCE_INLINE WeightScale weight_scale(int dimension, double h) {
   constexpr double per_pi = std::numbers::inv_pi;
-  const double plane = Kind == SphKernel::cubic_spline ? 10.0 / 7.0 : 7.0 / 4.0,
-               space = Kind == SphKernel::cubic_spline ? 1.0 : 21.0 / 16.0;
+  const double plane = Kind == SphKernel::cubic_spline  ? 10.0 / 7.0
+                       : Kind == SphKernel::wendland_c2 ? 7.0 / 4.0
+                                                        : 3.0 / 2.0,
+               space = Kind == SphKernel::cubic_spline  ? 1.0
+                       : Kind == SphKernel::wendland_c2 ? 21.0 / 16.0
+                                                        : 15.0 / 16.0;
   const double s = dimension == 2 ? plane * per_pi / (h * h) : space * per_pi / (h * h * h);
   return {1 / h, s, s / (h * h)};
 }
@@ -39,8 +46,10 @@ KRATER_FORCE_INLINE Real weight_slope(const WeightScale& scale, Real r_squared) 
   if constexpr (Kind == SphKernel::cubic_spline) {
     const Real inner = fma(Real(2.25), q, Real(-3.0)), outer = -0.75 * rest * rest / q;
     return Real(scale.slope) * select(q < Real(1.0), inner, outer);
-  } else {
+  } else if constexpr (Kind == SphKernel::wendland_c2) {
     return Real(-0.625 * scale.slope) * (rest * rest * rest);
+  } else {
+    return Real(-0.5 * scale.slope) * rest / q;
   }
 }
 
@@ -53,6 +62,8 @@ KRATER_FORCE_INLINE Real weight(const WeightScale& scale, Real r_squared) {
     const Real inner = fma(q * q, fma(Real(0.75), q, Real(-1.5)), Real(1.0)),
                outer = 0.25 * rest * rest * rest;
     return Real(scale.size) * select(q < Real(1.0), inner, outer);
+  } else if constexpr (Kind == SphKernel::quadratic) {
+    return Real(0.25 * scale.size) * (rest * rest);
   } else {
     const Real squared = rest * rest;
     return Real(scale.size / 16) * (squared * squared) * fma(Real(2.0), q, Real(1.0));
