@@ -125,6 +125,7 @@ FIGURES = {
                                    r.cell("^elements, 20 through", "residual velocity") + " m/s"),
     "manufactured": lambda r: Figure("error of the bar, G = 0.05, 128 cells, gimp (order)",
                                      r.tables[1].at("^gimp, tflip", "N = 128") + " m"),
+    "concrete": lambda r: Figure("peaks of Holmquist-Johnson-Cook against quadrature, worst", f"{worst(r, 'off %'):.2f} %"),
     "materials": lambda r: Figure("flow curves against their closed form, worst", f"{worst(r, 'closed form'):.0e}"),
     "plate_impact": lambda r: Figure("pressure behind the shock, worst at 100 cells",
                                      r.found(r"largest error is ([\d.]+ %) in pressure")),

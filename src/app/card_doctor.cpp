@@ -174,6 +174,7 @@ std::vector<std::string> examine(const MaterialOptions& material) {
   check_handbook(material, doubts);
   check_tension(material, doubts);
   check_fracture_strain(material, doubts);
+  check_model(material, doubts);
   return doubts;
 }
 

@@ -49,7 +49,7 @@ class PointRunner {
   void run_hugoniot();
   void run_path();
   void note_failure(const PointRecord& record, const MaterialPoint& point, int step);
-  void count_events(const Ledger& ledger);
+  void count_events(const Ledger& ledger, int jumps);
   void write(const std::string& status, const std::string& message);
   Json summary(const std::string& status, const std::string& message) const;
   void print() const;
@@ -117,10 +117,10 @@ void PointRunner::note_failure(const PointRecord& record, const MaterialPoint& p
   failure_["plastic_strain"] = Json::of(point.value(field::PlasticStrain::info));
 }
 
-void PointRunner::count_events(const Ledger& ledger) {
+void PointRunner::count_events(const Ledger& ledger, int jumps) {
   const auto whole = [](double x) { return static_cast<std::int64_t>(x); };
   events_ = {{"failures", whole(ledger.failures)},
-             {"snap_backs", whole(ledger.snap_backs)},
+             {"snap_backs", whole(ledger.snap_backs) + jumps},
              {"spalls", whole(ledger.spalls)},
              {"sound_speed_floors", whole(ledger.sound_speed_floors)},
              {"hugoniot_poles", whole(ledger.hugoniot_poles)}};
@@ -157,7 +157,15 @@ void PointRunner::run_path() {
     }
   }
   table_ = record.columns();
-  count_events(point.ledger());
+  count_events(point.ledger(), driver.jumps());
+  if (driver.jumps() > 0 && !options_.quiet) {
+    const PathDriver::Jump& j = driver.first_jump();
+    say(
+        fmt::format("krater: note: {}: the law snaps back: the stress along x went from {:.6g} to "
+                    "{:.6g} Pa within a strain of {:.3g}, and the path jumped there ({} times in "
+                    "all); between the two no strain that only grows can lead",
+                    scene_.path.where, j.from, j.to, j.strain, driver.jumps()));
+  }
   updates_ = driver.updates();
   seconds_ = driver.seconds();
   if (!problem.empty()) {

@@ -40,7 +40,7 @@ LawInfo describe() {
 struct LawAnswers {
   const char* problem = nullptr;
   bool degrades = false;
-  std::optional<double> thermal_energy = {}, sound_speed = {};
+  std::optional<double> thermal_energy = {}, sound_speed = {}, shear_modulus = {}, length = {};
   std::optional<ProgrammedFront> front = {};
 };
 
@@ -51,6 +51,9 @@ LawAnswers ask(const double* values, const MaterialConstants& constants) {
   if constexpr (requires { law.problem(); }) answers.problem = law.problem();
   if constexpr (requires { law.degrades(); }) answers.degrades = law.degrades();
   if constexpr (requires { law.thermal_energy(); }) answers.thermal_energy = law.thermal_energy();
+  if constexpr (ShearOfState<Law>) answers.shear_modulus = law.G;
+  if constexpr (requires { law.largest_length(); })
+    if (law.largest_length() > 0) answers.length = law.largest_length();
   if constexpr (Burns<Law>)
     if (law.lit()) answers.front = ProgrammedFront{law.D, law.front_width};
   if constexpr (Law::family == Family::eos || Law::family == Family::model)
@@ -121,6 +124,16 @@ std::optional<double> thermal_energy_at_start(int law, const double* values,
 std::optional<double> sound_speed_at_rest(int law, const double* values,
                                           const MaterialConstants& constants) {
   return answers_of(law, values, constants).sound_speed;
+}
+
+std::optional<double> own_shear_modulus(int law, const double* values,
+                                        const MaterialConstants& constants) {
+  return answers_of(law, values, constants).shear_modulus;
+}
+
+std::optional<double> largest_length(int law, const double* values,
+                                     const MaterialConstants& constants) {
+  return answers_of(law, values, constants).length;
 }
 
 std::optional<ProgrammedFront> programmed_front(int law, const double* values,

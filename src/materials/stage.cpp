@@ -11,7 +11,8 @@ namespace krater {
 Stage::~Stage() = default;
 
 void require_unowned(const Layout& layout, const FieldInfo& field, const char* law) {
-  if (layout.find(field.name) != nullptr)
+  const Column* column = layout.find(field.name);
+  if (column != nullptr && column->written)  // what was only asked for is still free
     throw std::logic_error(std::string{law} + ": the column '" + field.name +
                            "' belongs to another law already, or is declared twice");
 }

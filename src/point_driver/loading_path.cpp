@@ -36,6 +36,7 @@ LoadingPath::LoadingPath(const PathOptions& path, int steps, double start_pressu
   if (path.kind == PathKind::triaxial && path.lateral_stress.value_or(0) != 0)
     add(Kind::confine, std::max(1, static_cast<int>(std::lround(kConfiningShare * steps))),
         -start_pressure, *path.lateral_stress);
+  const Kind kind = kind_of_turns();
   const int rest = std::max(steps - steps_, static_cast<int>(path.turns.size()));
   double total = 0, before = 0;
   for (const double turn : path.turns) {
@@ -46,10 +47,19 @@ LoadingPath::LoadingPath(const PathOptions& path, int steps, double start_pressu
   sign_ = path.turns.front() < 0 ? -1 : 1;
   for (const double turn : path.turns) {
     const double share = std::fabs(turn - before) / total * rest;
-    add(path.kind == PathKind::simple_shear ? Kind::shear : Kind::stretch,
-        std::max(1, static_cast<int>(std::lround(share))), before, turn);
+    const int count = std::max(1, static_cast<int>(std::lround(share)));
+    if (kind == Kind::confine)  // a mean stress is negative in compression
+      add(kind, count, -start_pressure - before, -start_pressure - turn);
+    else
+      add(kind, count, before, turn);
     before = turn;
   }
+}
+
+LoadingPath::Kind LoadingPath::kind_of_turns() const {
+  if (path_.kind == PathKind::simple_shear) return Kind::shear;
+  if (path_.kind != PathKind::hydrostatic) return Kind::stretch;
+  return path_.by_pressure ? Kind::confine : Kind::swell;
 }
 
 void LoadingPath::add(Kind kind, int count, double from, double to) {
@@ -73,6 +83,12 @@ PathStep LoadingPath::in_leg(const Leg& leg, double a, double b) const {
       step.dt = std::fabs(b - a) / path_.rate;
       step.map(0, 0) = std::expm1(b - a);
       if (path_.kind == PathKind::uniaxial_strain) break;
+      if (path_.kind == PathKind::biaxial) {
+        step.map(1, 1) = step.map(0, 0);
+        step.control = Control::normal_stress;
+        step.target = path_.lateral_stress.value_or(0);
+        break;
+      }
       step.control = path_.triaxiality ? Control::triaxiality : Control::lateral_stress;
       step.target =
           path_.triaxiality ? sign_ * *path_.triaxiality : path_.lateral_stress.value_or(0);
@@ -81,6 +97,12 @@ PathStep LoadingPath::in_leg(const Leg& leg, double a, double b) const {
       step.dt = std::fabs(b - a) / path_.rate;
       step.map(0, 1) = b - a;
       break;
+    case Kind::swell: {
+      const double volume = std::log1p(b) - std::log1p(a);
+      step.dt = std::fabs(volume) / path_.rate;
+      step.map = std::expm1(-volume / 3) * Matrix3d::Identity();
+      break;
+    }
     case Kind::confine:
       step.dt = std::max(std::fabs(b - a), 1e-9 * modulus_) / modulus_ / path_.rate;
       step.control = Control::mean_stress;

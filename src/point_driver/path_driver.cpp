@@ -20,12 +20,18 @@ constexpr int kMostTrials = 200;
 // Of the stress in force, and of the modulus: what round-off of the pressure leaves.
 constexpr double kTolerance = 1e-10, kRoundOff = 1e-14;
 constexpr double kLargestStretch = 0.5;  // log strain of one step
+// A stress that falls so many times faster than it would unload has jumped: softening that is
+// resolved by the steps grows towards this, one that snaps back passes it within a step.
+constexpr double kJump = 10;
 
 Matrix3d with_stretch(const PathStep& step, double x) {
   Matrix3d map = step.map;
   if (step.control == Control::none) return map;
   const double stretch = std::expm1(x);
-  for (int k = step.control == Control::mean_stress ? 0 : 1; k < 3; ++k) map(k, k) = stretch;
+  const int first = step.control == Control::mean_stress     ? 0
+                    : step.control == Control::normal_stress ? 2
+                                                             : 1;
+  for (int k = first; k < 3; ++k) map(k, k) = stretch;
   return map;
 }
 
@@ -67,6 +73,8 @@ const char* text_of(Control control) {
   switch (control) {
     case Control::lateral_stress:
       return "no lateral stretch gives the lateral stress";
+    case Control::normal_stress:
+      return "no stretch along z gives the stress along z";
     case Control::triaxiality:
       return "no lateral stretch gives the triaxiality";
     default:
@@ -96,6 +104,8 @@ double PathDriver::residual(const PathStep& step, double x) {
   switch (step.control) {
     case Control::lateral_stress:
       return sigma(1, 1) - step.target;
+    case Control::normal_stress:
+      return sigma(2, 2) - step.target;
     case Control::triaxiality:
       return mean - 1.5 * step.target * (sigma(0, 0) - mean);
     case Control::mean_stress:
@@ -130,11 +140,21 @@ Matrix3d PathDriver::solve(const PathStep& step) {
                                    kind == FaultKind::none ? "the residual stays" : text_of(kind)));
 }
 
+void PathDriver::note_jump(const PathStep& step, double before) {
+  const double after = point_.stress()(0, 0), strain = std::log1p(step.map(0, 0));
+  const double fall = std::fabs(before) - std::fabs(after);
+  if (!(before * strain > 0) || fall <= kJump * stiffness() * std::fabs(strain)) return;
+  if (jumps_++ == 0) first_jump_ = {before, after, strain};
+}
+
 Matrix3d PathDriver::take(const PathStep& step) {
   trials_ = 0;
   if (step.control != Control::none) {
     saved_ = point_.save();
-    return solve(step);
+    const double before = point_.stress()(0, 0);
+    const Matrix3d map = solve(step);
+    if (step.control != Control::mean_stress) note_jump(step, before);
+    return map;
   }
   residual(step, 0);
   if (point_.fault() != FaultKind::none)

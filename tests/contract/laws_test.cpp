@@ -68,7 +68,12 @@ TEST_SUITE("contract") {
       }
       const auto values = typical_parameters(law);
       CHECK(law_problem(find_law(law.family, law.name), values.data(), kCopper) == nullptr);
-      CHECK(law.needs_shear_modulus == (law.family == "strength" || law.family == "model"));
+      // Or it makes one of its own constants.
+      const int index = find_law(law.family, law.name);
+      const bool own = own_shear_modulus(index, values.data(), kCopper).has_value();
+      CHECK((law.needs_shear_modulus || own) ==
+            (law.family == "strength" || law.family == "model"));
+      CHECK(!(law.needs_shear_modulus && own));
       for (const ParameterInfo& p : law.parameters) {
         if (p.words != nullptr)
           CHECK(static_cast<std::size_t>(p.fallback) < parameter_words(p).size());

@@ -195,13 +195,78 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"holmquist_johnson_cook.K1", 85e9},
       {"holmquist_johnson_cook.K2", -171e9},
       {"holmquist_johnson_cook.K3", 208e9},
+      {"holmquist_johnson_cook.unloading", 0.0},
+      {"holmquist_johnson_cook.cohesion", 0.0},
+      {"holmquist_johnson_cook.tension", 0.0},
+      {"holmquist_johnson_cook.tension_cut", 0.0},
+      {"holmquist_johnson_cook.fracture_energy", 0.0},
+      {"osborn.c0", 37.92e6},  // concrete of 48 MPa
+      {"osborn.c1", 1584.18},
+      {"osborn.n", 0.61},
+      {"osborn.c3", 0.007},
+      {"osborn.epsdot0", 1.0},
+      {"osborn.sigma_max", 336e6},
+      {"osborn.tensile_strength", 4e6},
+      {"osborn.crush_pressure", 16e6},
+      {"osborn.crush_compression", 1e-3},
+      {"osborn.lock_pressure", 0.8e9},
+      {"osborn.lock_compression", 0.1},
+      {"osborn.K1", 85e9},
+      {"osborn.K2", -171e9},
+      {"osborn.K3", 208e9},
+      {"karagozian_case.compressive_strength", 39.3e6},
+      {"kinetic_damage.compressive_strength", 39.3e6},
+      {"kinetic_damage.tensile_strength", 3.476e6},
+      {"kinetic_damage.intact_slope", 3.0},
+      {"kinetic_damage.damaged_slope", 2.5},
+      {"kinetic_damage.strength_max", 7.0},
+      {"kinetic_damage.overload_max", 3.0},
+      {"kinetic_damage.exponent", 2.0},
+      {"kinetic_damage.shear_time", 1e-5},
+      {"kinetic_damage.tension_time", 3e-6},
+      {"kinetic_damage.crush_pressure", 13.1e6},
+      {"kinetic_damage.crush_compression", 7.947e-4},
+      {"kinetic_damage.lock_pressure", 0.8e9},
+      {"kinetic_damage.lock_compression", 0.1269},
+      {"kinetic_damage.K1", 85e9},
+      {"kinetic_damage.K2", -171e9},
+      {"kinetic_damage.K3", 208e9},
+      {"drucker_prager.compressive_strength", 39.3e6},
+      {"drucker_prager.tensile_strength", 3.93e6},
+      {"drucker_prager.bulk_modulus", 16.48e9},
+      {"drucker_prager.cap", 0.0},
+      {"drucker_prager.cap_shape", 2.0},
+      {"drucker_prager.air_voids", 0.113},
+      {"drucker_prager.lock_pressure", 0.8e9},
+      {"johnson_holmquist_2.A", 0.85},  // AlN
+      {"johnson_holmquist_2.N", 0.29},
+      {"johnson_holmquist_2.B", 0.31},
+      {"johnson_holmquist_2.M", 0.21},
+      {"johnson_holmquist_2.C", 0.013},
+      {"johnson_holmquist_2.epsdot0", 1.0},
+      {"johnson_holmquist_2.tensile_strength", 320e6},
+      {"johnson_holmquist_2.fractured_max", 0.35},
+      {"johnson_holmquist_2.HEL", 9e9},
+      {"johnson_holmquist_2.P_HEL", 5e9},
+      {"johnson_holmquist_2.D1", 0.02},
+      {"johnson_holmquist_2.D2", 1.85},
+      {"johnson_holmquist_2.K1", 201e9},
+      {"johnson_holmquist_2.K2", 260e9},
+      {"johnson_holmquist_2.K3", 0.0},
+      {"johnson_holmquist_2.beta", 1.0},
       {"plastic_work.fraction", 0.9},
       {"plastic_work.cp", 383.0},
       {"energy.c_v", 383.0},
   };
   std::vector<double> result;
   const std::string name = law.name == "voce_log" ? "voce" : law.name;
-  for (const ParameterInfo& p : law.parameters) result.push_back(values.at(name + '.' + p.key));
+  for (const ParameterInfo& p : law.parameters) {
+    const auto known = values.find(name + '.' + p.key);
+    // Of a law that generates its constants the strength is enough.
+    const bool generated = law.name == "karagozian_case" && !std::isnan(p.fallback);
+    result.push_back(known == values.end() && generated ? p.fallback
+                                                        : values.at(name + '.' + p.key));
+  }
   return result;
 }
 

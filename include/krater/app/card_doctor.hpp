@@ -15,6 +15,9 @@ namespace krater {
 /// heat and melting point against metals of that density, a missing limit of tension.
 std::vector<std::string> examine(const MaterialOptions& material);
 
+/// Of them those of a model's card (concrete, ceramic): what does not fit together.
+void check_model(const MaterialOptions& material, std::vector<std::string>& doubts);
+
 /// Numbers of a material that are wrong by powers of ten, with the unit that was probably meant.
 std::vector<std::string> doubt_magnitudes(const MaterialOptions& material);
 

@@ -56,6 +56,15 @@ std::optional<double> thermal_energy_at_start(int law, const double* values,
 std::optional<double> sound_speed_at_rest(int law, const double* values,
                                           const MaterialConstants& constants);
 
+/// Shear modulus at rest of a model that has its own [Pa]; nothing of other laws.
+std::optional<double> own_shear_modulus(int law, const double* values,
+                                        const MaterialConstants& constants);
+
+/// Largest width over which the softening of a model may localise [m]: its energy per area would
+/// snap back in a wider one. Nothing where no energy rules the softening.
+std::optional<double> largest_length(int law, const double* values,
+                                     const MaterialConstants& constants);
+
 /// The front that burns an explosive; nothing where none does.
 struct ProgrammedFront {
   double speed;  ///< D [m/s]

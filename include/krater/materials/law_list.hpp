@@ -19,7 +19,12 @@
 #include "krater/materials/eos/tillotson.hpp"
 #include "krater/materials/heating/internal_energy.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
+#include "krater/materials/model/drucker_prager_cap.hpp"
 #include "krater/materials/model/holmquist_johnson_cook.hpp"
+#include "krater/materials/model/johnson_holmquist_2.hpp"
+#include "krater/materials/model/karagozian_case.hpp"
+#include "krater/materials/model/kinetic_damage.hpp"
+#include "krater/materials/model/osborn.hpp"
 #include "krater/materials/strength/drucker_prager.hpp"
 #include "krater/materials/strength/elastic.hpp"
 #include "krater/materials/strength/johnson_cook.hpp"
@@ -64,6 +69,11 @@ using AllLaws = LawList<Elastic,                 //
                         JwlBurn,                 //
                         Tillotson,               //
                         HolmquistJohnsonCook,    //
+                        Osborn,                  //
+                        DruckerPragerCap,        //
+                        KaragozianCase,          //
+                        KineticDamage,           //
+                        JohnsonHolmquist2,       //
                         BulkViscosity,           //
                         PlasticWorkHeating,      //
                         EnergyHeating>;

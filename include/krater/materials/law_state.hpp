@@ -94,4 +94,31 @@ class StateOf<Law> {
   std::array<int, count> offsets_{};
 };
 
+/// Reads the columns of a law where they are not written: before its own stage.
+template <class Law>
+class StateReader {};
+
+template <class Law>
+requires OwnsState<Law>
+class StateReader<Law> {
+ public:
+  StateReader() = default;
+  explicit StateReader(Layout& layout) { ask(layout, typename Law::State{}); }
+
+  KRATER_FORCE_INLINE auto operator()(const BatchData& batch, int g) const {
+    std::array<Pack, Law::State::count> state;
+    for (unsigned k = 0; k < Law::State::count; ++k)
+      state[k] = ReadView{batch.state + offsets_[k], batch.state_stride}(g);
+    return state;
+  }
+
+ private:
+  template <Field... F>
+  void ask(Layout& layout, Columns<F...>) {
+    unsigned k = 0;
+    ((offsets_[k++] = layout.input<F>(Law::name).offset), ...);
+  }
+  std::array<int, Law::State::count> offsets_{};
+};
+
 }  // namespace krater::inline KRATER_ISA

@@ -19,7 +19,8 @@ enum class Control {
   none,            ///< the whole map is given
   lateral_stress,  ///< y and z stretch alike: sigma_yy = target [Pa]
   triaxiality,     ///< the same: mean stress = target 3/2 s_xx
-  mean_stress      ///< x, y and z stretch alike: mean stress = target [Pa]
+  mean_stress,     ///< x, y and z stretch alike: mean stress = target [Pa]
+  normal_stress    ///< z stretches: sigma_zz = target [Pa]
 };
 
 struct PathStep {
@@ -39,12 +40,13 @@ class LoadingPath {
   PathStep step(int number) const;
 
  private:
-  enum class Kind { stretch, shear, confine, velocity_gradient, deformation };
+  enum class Kind { stretch, shear, swell, confine, velocity_gradient, deformation };
   struct Leg {
     Kind kind;
     int first, count;
-    double from, to;  ///< strain, shear, mean stress or time
+    double from, to;  ///< strain, shear, compression, mean stress or time
   };
+  Kind kind_of_turns() const;
   void add(Kind kind, int count, double from, double to);
   PathStep in_leg(const Leg& leg, double a, double b) const;
   Eigen::Matrix3d tensor(double t) const;
@@ -71,16 +73,26 @@ class PathDriver {
   int trials() const { return trials_; }       ///< of the last step
   double seconds() const { return seconds_; }  ///< in the stages
 
+  /// Steps in which the stress along x fell far more than elastic unloading by the step's strain
+  /// would have let it: the law snaps back, and a path by strain jumps to what is left.
+  int jumps() const { return jumps_; }
+  struct Jump {
+    double from, to, strain;  ///< stress along x [Pa] before and after, strain of the step
+  };
+  const Jump& first_jump() const { return first_jump_; }
+
  private:
   double residual(const PathStep& step, double x);
   Eigen::Matrix3d solve(const PathStep& step);
   bool good(double residual, const PathStep& step) const;
+  void note_jump(const PathStep& step, double before);
   double stiffness() const;
 
   MaterialPoint& point_;
   MaterialPoint::State saved_;
   double guess_ = 0;
-  int trials_ = 0;
+  int trials_ = 0, jumps_ = 0;
+  Jump first_jump_{};
   long updates_ = 0;
   double seconds_ = 0;
 };

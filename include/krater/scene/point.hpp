@@ -21,6 +21,8 @@ enum class PathKind {
   uniaxial_strain,    ///< stretch along x, no lateral strain
   simple_shear,       ///< F = I + gamma e_x e_y
   triaxial,           ///< stretch along x under a lateral stress or at a triaxiality
+  hydrostatic,        ///< x, y and z stretch alike, to compressions or pressures
+  biaxial,            ///< x and y stretch alike under a stress along z
   velocity_gradient,  ///< L(t)
   stretch,            ///< F(t)
   hugoniot,           ///< states behind a steady shock into material at rest
@@ -33,10 +35,12 @@ using TimeFunction = std::function<double(double)>;
 struct PathOptions {
   PathKind kind = PathKind::uniaxial_stress;
   std::string where;
-  std::vector<double> turns;  ///< strain or shear at which the path turns round or ends; from 0
-  double rate = 0;            ///< of it [1/s], positive; release_isentrope: of the volume, nominal
-  double time = 0;            ///< end [s] of velocity_gradient and stretch
-  std::optional<double> lateral_stress;  ///< [Pa], tension positive
+  /// Strain, shear, rho/rho0 - 1 or pressure [Pa] at which the path turns round or ends; from 0.
+  std::vector<double> turns;
+  bool by_pressure = false;  ///< hydrostatic: turns are pressures
+  double rate = 0;           ///< of it [1/s], positive; release_isentrope: of the volume, nominal
+  double time = 0;           ///< end [s] of velocity_gradient and stretch
+  std::optional<double> lateral_stress;  ///< [Pa], tension positive; biaxial: along z
   std::optional<double> triaxiality;     ///< -p/q
   std::vector<TimeFunction> tensor;      ///< nine, row-major: L [1/s] or F
   std::vector<double> particle_speeds;   ///< [m/s] behind the shock, or ...

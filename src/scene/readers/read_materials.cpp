@@ -342,6 +342,7 @@ Node read_material(const Node& node, Reading& reading) {
   material.eos = laws.read_named("eos");
   material.strength = laws.read_named("strength");
   material.model = laws.read_named("model");
+  if (material.model && !reading.problems.any()) take_shear_modulus(material, block, reading);
   laws.read_rate();
   laws.read_spall();
   laws.read_damage();

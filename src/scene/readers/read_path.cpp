@@ -13,13 +13,14 @@ namespace krater {
 
 namespace {
 
-constexpr std::array<const char*, 8> kPathNames{
-    "uniaxial_stress", "uniaxial_strain",   "simple_shear", "triaxial",
-    "stretch",         "velocity_gradient", "hugoniot",     "release_isentrope"};
-constexpr std::array<PathKind, 8> kPathKinds{
-    PathKind::uniaxial_stress, PathKind::uniaxial_strain,  PathKind::simple_shear,
-    PathKind::triaxial,        PathKind::stretch,          PathKind::velocity_gradient,
-    PathKind::hugoniot,        PathKind::release_isentrope};
+constexpr std::array<const char*, 10> kPathNames{
+    "uniaxial_stress", "uniaxial_strain", "simple_shear",      "triaxial", "hydrostatic",
+    "biaxial",         "stretch",         "velocity_gradient", "hugoniot", "release_isentrope"};
+constexpr std::array<PathKind, 10> kPathKinds{
+    PathKind::uniaxial_stress,  PathKind::uniaxial_strain,   PathKind::simple_shear,
+    PathKind::triaxial,         PathKind::hydrostatic,       PathKind::biaxial,
+    PathKind::stretch,          PathKind::velocity_gradient, PathKind::hugoniot,
+    PathKind::release_isentrope};
 
 }  // namespace
 
@@ -90,9 +91,9 @@ struct PathReader {
   }
 
   /// Strain or shear, a number or the values at which the path turns round, and its rate.
-  void turns(const char* key) {
+  void turns(const char* key, const char* unit = "1") {
     if (const Node* node = block.require(key, "a number, or a list of where the path turns")) {
-      path.turns = numbers(*node, "1", Range::any);
+      path.turns = numbers(*node, unit, Range::any);
       double before = 0;
       for (const double turn : path.turns) {
         if (turn == before) fail(*node, "two turns of the path are the same (it starts at 0)");
@@ -101,6 +102,25 @@ struct PathReader {
       record(key, path.turns);
     }
     path.rate = block.number(kRate);
+  }
+
+  /// `compression: [0.1, 0.05]` (rho/rho0 - 1) or `pressure: [100 MPa, 0]`.
+  void hydrostatic() {
+    path.by_pressure = block.find("pressure") != nullptr;
+    if (path.by_pressure == (block.find("compression") != nullptr)) {
+      block.fail("give one of compression (rho/rho0 - 1) and pressure");
+      return;
+    }
+    turns(path.by_pressure ? "pressure" : "compression", path.by_pressure ? "Pa" : "1");
+    if (path.by_pressure) return;
+    for (const double mu : path.turns)
+      if (!(mu > -1)) block.fail("compression is rho/rho0 - 1: it must exceed -1");
+  }
+
+  void biaxial() {
+    turns("strain");
+    path.lateral_stress = block.optional_number(kLateral);
+    if (path.lateral_stress) block.record(kLateral.key, number_node(*path.lateral_stress));
   }
 
   void triaxial() {
@@ -202,6 +222,10 @@ struct PathReader {
       case PathKind::triaxial:
         turns("strain");
         return triaxial();
+      case PathKind::hydrostatic:
+        return hydrostatic();
+      case PathKind::biaxial:
+        return biaxial();
       case PathKind::velocity_gradient:
         return tensor("L", "s^-1");
       case PathKind::stretch:

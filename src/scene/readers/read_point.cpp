@@ -16,7 +16,7 @@ constexpr int kMostSteps = 100'000'000;
 constexpr ParameterInfo kTemperature{"temperature", "K", Range::positive, kRequired,
                                      "at the start of the path"};
 constexpr ParameterInfo kLength{"length", "m", Range::positive, kRequired,
-                                "element length, which the viscosity needs"};
+                                "element length, which viscosity and softening by an energy need"};
 
 /// The material named, or the only one.
 std::optional<MaterialOptions> choose_material(Block& point, Reading& reading) {
@@ -68,8 +68,9 @@ Node read_point_block(const Node* node, PointScene& out, Reading& reading) {
   if (const auto temperature = point.optional_number(kTemperature))
     out.material.initial_temperature = *temperature;
   point.record("temperature", number_node(out.material.initial_temperature));
-  if (out.material.viscosity) {
+  if (out.material.viscosity || softening_length(out.material)) {
     out.length = point.number(kLength);
+    if (!reading.problems.any()) check_softening(out.material, out.length, point);
   } else if (const auto length = point.optional_number(kLength)) {
     out.length = *length;
     point.record("length", number_node(*length));

@@ -69,6 +69,16 @@ void read_stop(const Node& node, Reading& reading);
 Node read_gauges(const Node* node, Reading& reading);
 Node read_references(const Node* node, Reading& reading);  ///< after read_measures
 
+/// A model that makes its shear modulus of its own constants gives that of the material, and says
+/// what it implies.
+void take_shear_modulus(MaterialOptions& material, Block& block, Reading& reading);
+/// Largest width over which the softening of a material may localise [m]; nothing where no energy
+/// rules it.
+std::optional<double> softening_length(const MaterialOptions& material);
+/// A point, or the cells of bodies of material points, that are wider; after all blocks.
+void check_softening(const MaterialOptions& material, double length, Block& point);
+void check_softening(Reading& reading);
+
 /// Index of the body that a node names; -1 after a problem.
 int read_body_name(const Node& node, Reading& reading);
 

@@ -240,6 +240,12 @@ CardedMaterial with_card(const Node& material, const std::string& scene_file, Pr
       report_not_in_card(*asked, key, "", scene_file, problems);
   }
   if (!card) return {material, "", {}, {}};
+  if (card->kind == Node::Kind::map) {
+    CardedMaterial result{generated_card(*card, material.path, problems), "generated", {}, {}};
+    result.block.key = material.key;
+    overlay(result.block, own);
+    return result;
+  }
   if (card->kind != Node::Kind::scalar || card->text.empty()) {
     problems.add(card->file, card->line, card->path,
                  "expected the name or path of a card, found " + card->kind_name());

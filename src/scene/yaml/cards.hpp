@@ -14,6 +14,9 @@
 ///
 /// `unsourced: [spall_strength, heating.plastic_work.cp]` in a card names the values that no source
 /// was read for; `krater check` and `krater models` repeat them.
+///
+/// `card: {concrete: {fc: 39 MPa, model: karagozian_case}}` is generated from a strength instead of
+/// read: uncalibrated, and said so.
 #include <string>
 #include <vector>
 
@@ -30,6 +33,9 @@ struct CardedMaterial {
   std::vector<std::string> unused;     ///< keys that the card holds and the scene does not ask for
   std::vector<std::string> unsourced;  ///< of the card's values used: no source was read for them
 };
+/// The block of a material generated from what stands in `card`; `path` is the material's.
+Node generated_card(const Node& card, const std::string& path, Problems& problems);
+
 CardedMaterial with_card(const Node& material, const std::string& scene_file, Problems& problems);
 
 }  // namespace krater::scene

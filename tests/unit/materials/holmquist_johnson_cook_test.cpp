@@ -259,7 +259,8 @@ TEST_SUITE("unit") {
     };
     CHECK(problem([](auto& c) { c.p_lock = 10e6; }).find("lock_pressure") != std::string::npos);
     CHECK(problem([](auto& c) { c.mu_crush = 0.2; }).find("lock_compression") != std::string::npos);
-    CHECK(problem([](auto& c) { c.mu_crush = 1e-4; }).find("softer") != std::string::npos);
+    CHECK(problem([](auto& c) { c.p_crush = 1e6; }).find("steeper") != std::string::npos);
+    CHECK(problem([](auto& c) { c.cohesion = 1, c.B = 4; }).find("closing") != std::string::npos);
     CHECK(problem([](auto& c) { c.K1 = 1e6, c.K2 = -1e9, c.K3 = 0; }).find("never reach") !=
           std::string::npos);
   }

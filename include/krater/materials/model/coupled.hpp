@@ -8,6 +8,10 @@
 /// beside doubles rho0 and c0, the reference density and the bulk sound speed at rest, and
 ///   static constexpr bool needs_shear_modulus = true    its elastic deviator has the material's G
 ///   static constexpr bool fails                         `failed` of the update means something
+///   double largest_length() const      softening by an energy per area G_f (optional): the largest
+///                                      width that does not snap back [m]; 0: softens by no energy
+///   Real shear_modulus(state)          G varies with the state (optional; then no shear_modulus of
+///                                      the material is needed)
 /// The stage (stages/coupled_stage.hpp) does what no law should have to know: the objective trial,
 /// work and energy, ledger, sound speed, failure.
 #pragma once
@@ -29,7 +33,8 @@ struct CoupledStep {
   Real rho, v;       ///< density of the end [kg/m^3], and 1/rho
   Real energy;       ///< e of the start [J/kg]
   Real plastic_strain;
-  double dt;  ///< [s]
+  double dt;    ///< [s]
+  Real length;  ///< width over which softening localises [m]
 };
 
 /// The end of the step.
@@ -40,6 +45,7 @@ struct CoupledUpdate {
   PressureSplit<Real> pressure;  ///< p = cold + thermal e
   Real least;                    ///< the pressure is not below [Pa]
   Real modulus;                  ///< rho c^2, the stiffest that a change of volume meets [Pa]
+  Real crush;  ///< heat of the change of volume [J/kg]: its work less what unloading gives back
   std::array<Real, N> state;
   MaskOf<Real> failed;  ///< bears no tension any more; what is left of its deviator is the law's
 };
@@ -50,6 +56,12 @@ concept Coupled = Law::family == Family::model;
 template <class Law>
 concept Fails = requires {
   requires Law::fails;
+};
+
+/// A coupled law that makes its shear modulus of its history.
+template <class Law>
+concept ShearOfState = OwnsState<Law> && requires(const Law& law) {
+  law.shear_modulus(law.initial_state());
 };
 
 }  // namespace krater::inline KRATER_ISA

@@ -4,7 +4,8 @@
 /// (start_stage.hpp, trial_stage.hpp):
 ///   s_{n+1} = s_tr q/q_tr,   p_{n+1} and e_{n+1} by Algorithm 1 (eos_stage.hpp), p >= `least`,
 /// with the work of the deviator and of viscosity; then plastic work, sound speed, failure. A law
-/// whose pressure needs no e has only the work in e: its crushing is heat by itself.
+/// whose pressure needs no e has only the work in e. Plastic work is that of the deviator and what
+/// crushing does not give back: both are heat.
 #pragma once
 
 #include "krater/materials/model/coupled.hpp"
@@ -62,7 +63,8 @@ class CoupledStage final : public Stage {
             v,
             view(batch, e_)(g),
             view(batch, eps_)(g),
-            batch.dt};
+            batch.dt,
+            lengths(batch)(g)};
   }
 
   /// The deviator of the end; returns its work.
@@ -94,7 +96,8 @@ class CoupledStage final : public Stage {
 
   KRATER_FORCE_INLINE void flow(const BatchData& batch, int g, const auto& update, Pack v) const {
     const auto eps = view(batch, eps_);
-    const Pack strain = eps(g) + update.plastic, work = update.q * update.plastic * v;
+    const Pack strain = eps(g) + update.plastic;
+    const Pack work = fma(update.q * update.plastic, v, update.crush);
     report(batch, FaultKind::not_finite_state, g, !is_finite(strain));
     eps.set(g, strain);
     view(batch, plastic_work_).set(g, work);

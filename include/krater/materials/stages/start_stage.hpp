@@ -4,9 +4,11 @@
 /// stages: the pressure p~ = p^/w, got back from the carried one, and the shear modulus, which a
 /// law may make of it. Every later stage of the deviator reads both here, so that neither damage
 /// nor rates know which laws vary G or read p. Where spall has cut p^ off, p~ is the effective
-/// tension which the material really bears.
+/// tension which the material really bears. A coupled law may make its modulus of its own history.
 #pragma once
 
+#include "krater/materials/law_state.hpp"
+#include "krater/materials/model/coupled.hpp"
 #include "krater/materials/returns/start_reader.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -34,6 +36,7 @@ class StartStage final : public Stage {
       effective_ = layout.local_output<field::EffectivePressure>(Law::name);
     }
     if constexpr (damaged) phi_ = layout.input<field::Damage>(Law::name);
+    if constexpr (ShearOfState<Law>) state_ = StateReader<Law>{layout};
   }
 
   void apply(const BatchData& batch) const override {
@@ -43,7 +46,11 @@ class StartStage final : public Stage {
         p = pressure(batch, g);
         view(batch, effective_).set(g, p);
       }
-      view(batch, shear_).set(g, Pack(shear_at(law_, start_(batch, g, p), G_)));
+      if constexpr (ShearOfState<Law>) {
+        view(batch, shear_).set(g, law_.shear_modulus(state_(batch, g)));
+      } else {
+        view(batch, shear_).set(g, Pack(shear_at(law_, start_(batch, g, p), G_)));
+      }
     }
   }
 
@@ -67,6 +74,7 @@ class StartStage final : public Stage {
   Input<field::Pressure> p_{-1};  // these three: where they are read
   LocalOutput<field::EffectivePressure> effective_{-1};
   Input<field::Damage> phi_{-1};
+  StateReader<Law> state_;
 };
 
 }  // namespace krater::inline KRATER_ISA

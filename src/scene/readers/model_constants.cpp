@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iomanip>
+#include <sstream>
+
+#include "krater/materials/catalogue.hpp"
+#include "scene/readers/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+/// Five digits, for messages.
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(5) << value;
+  return text.str();
+}
+
+std::string problem_of(const MaterialOptions& material, double largest, double length,
+                       const std::string& what) {
+  return "model " + material.model->name + " softens by an energy per area: in " + what + " of " +
+         rounded(length) + " m it would snap back, the largest is " + rounded(largest) +
+         " m (2 E G_f/f_t^2 or less); use a smaller one, or a larger fracture_energy";
+}
+
+}  // namespace
+
+std::optional<double> softening_length(const MaterialOptions& material) {
+  if (!material.model) return std::nullopt;
+  return largest_length(material.model->law, material.model->values.data(),
+                        {material.density, material.shear_modulus, material.initial_temperature});
+}
+
+void take_shear_modulus(MaterialOptions& material, Block& block, Reading& reading) {
+  const std::optional<double> own =
+      own_shear_modulus(material.model->law, material.model->values.data(),
+                        {material.density, material.shear_modulus, material.initial_temperature});
+  if (!own) return;
+  if (material.shear_modulus > 0)
+    block.fail("model " + material.model->name + " has its own shear modulus, " + rounded(*own) +
+               " Pa at rest: remove the material's elastic constants");
+  material.shear_modulus = *own;
+  const double c0 = sound_speed_at_rest(material.model->law, material.model->values.data(),
+                                        {material.density, *own, material.initial_temperature})
+                        .value();
+  const double K = material.density * c0 * c0, G = *own;
+  const std::optional<double> largest = softening_length(material);
+  reading.scene.notes.push_back(
+      material.model->where + ": generated from the strength, uncalibrated: E = " +
+      rounded(9 * K * G / (3 * K + G)) + " Pa, Poisson's ratio " +
+      rounded((3 * K - 2 * G) / (2 * (3 * K + G))) + ", K = " + rounded(K) + " Pa" +
+      (largest ? ", softens by its fracture energy in cells up to " + rounded(*largest) + " m"
+               : ", softens by the cell"));
+}
+
+void check_softening(const MaterialOptions& material, double length, Block& point) {
+  const std::optional<double> largest = softening_length(material);
+  if (largest && length > *largest)
+    point.fail(problem_of(material, *largest, length, "a point of length"));
+}
+
+void check_softening(Reading& reading) {
+  const Scene& scene = reading.scene;
+  for (const BodyOptions& body : scene.bodies) {
+    if (body.material < 0 || !body.material_points() || body.rigid()) continue;
+    const MaterialOptions& m = scene.materials[static_cast<std::size_t>(body.material)];
+    const std::optional<double> largest = m.model ? softening_length(m) : std::nullopt;
+    if (!largest || scene.grid.cell <= *largest) continue;
+    const Node* grid = reading.root.find("grid");
+    const Node& place = grid ? *grid : reading.root;
+    reading.problems.add(
+        place.file, place.line, "grid.cell",
+        "body " + body.name + ": " + problem_of(m, *largest, scene.grid.cell, "cells"));
+  }
+}
+
+}  // namespace krater::scene

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/core/parameters.hpp"
+#include "scene/yaml/block.hpp"
+#include "scene/yaml/cards.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kStrength{
+    "fc", "Pa", Range::positive, kRequired, "unconfined strength", "compressive_strength"};
+constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, 2300.0,
+                                 "of ordinary concrete"};
+constexpr ParameterInfo kGrain{"aggregate_size", "m", Range::positive, 9.5e-3,
+                               "largest grain, for the fracture energy"};
+
+/// A copy of a node's place, as a map or a scalar at another path.
+Node placed(const Node& at, const std::string& path, Node value) {
+  value.file = at.file;
+  value.line = at.line;
+  value.path = path;
+  for (Node& item : value.items) item = placed(at, path + "." + item.key, item);
+  return value;
+}
+
+}  // namespace
+
+Node generated_card(const Node& card, const std::string& path, Problems& problems) {
+  Node made;
+  made.kind = Node::Kind::map;
+  if (card.items.size() != 1 || card.items[0].key != "concrete" ||
+      card.items[0].kind != Node::Kind::map) {
+    problems.add(card.file, card.line, card.path,
+                 "a card is a name, a path, or what one is generated from: {concrete: {fc: 39 MPa, "
+                 "model: karagozian_case}}");
+    return made;
+  }
+  Block block{&card.items[0], card.path + ".concrete", card, problems};
+  const double f = block.number(kStrength), density = block.number(kDensity),
+               grain = block.number(kGrain);
+  const Node* model = block.require("model", "karagozian_case can be generated");
+  if (model && model->text != "karagozian_case")
+    report_unknown(*model, "model to generate", model->text, {"karagozian_case"}, problems);
+  block.finish();
+  add_member(made, "density", number_node(density));
+  Node law, family;
+  law.kind = family.kind = Node::Kind::map;
+  add_member(law, "compressive_strength", number_node(f));
+  add_member(law, "aggregate_size", number_node(grain));
+  add_member(family, "karagozian_case", law);
+  add_member(made, "model", family);
+  return placed(card, path, made);
+}
+
+}  // namespace krater::scene
