@@ -14,8 +14,9 @@
 /// Medin 2002; Vila 1999), of no effect on a linear field of velocity. On `current` pairs in
 /// tension clump (Swegle, Hicks and Attaway 1995). Of the tension of a pair along its line,
 ///   t = e.(A_i + A_j) e > 0,   a part min(1, eps (W_ij/W(dx))^4)
-/// is taken back (artificial stress of Gray, Monaghan and Swift 2001, eps 0.3; their powers of
-/// principal stresses push pairs apart that plastic flow brought close, and feed motion). Both
+/// is taken back where eps > 0 is asked for (artificial stress of Gray, Monaghan and Swift 2001,
+/// who take 0.3; their powers of principal stresses push pairs apart that plastic flow brought
+/// close). It softens tension, and feeds the motion of particles that are not in order. Both
 /// forces are along x_ij, so that momenta are exact. Their work heats both alike: half of
 /// - h_ij.v_ij-, and - h_i.dv_i/2 of each, in sum - h.(v- + v+)/2.
 /// A pair gives both its particles the same force to the last bit, by its sign. e is that of
