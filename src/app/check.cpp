@@ -172,7 +172,9 @@ void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
   if (!body.mesh->erosion.any()) return;
   fmt::print("  elements that fail as `when` says {}\n",
              body.mesh->converts ? "become points" : "are eroded");
-  if (body.mesh->converts && body.mesh->element > kTurns * scene.grid.cell)
+  const double longest =
+      body.mesh->mesh ? mesh_quality(*body.mesh->mesh).longest : body.mesh->element;
+  if (body.mesh->converts && longest > kTurns * scene.grid.cell)
     fmt::print(
         "  beyond {} cells an element that becomes points loses angular momentum: use a smaller "
         "element or a larger grid.cell\n",

@@ -170,7 +170,7 @@ std::vector<Quantity> Runner::history_titles() const {
 void Runner::write_history() { results_.write_history(history_columns()); }
 
 void Runner::write_frame(double time) {
-  sim_.look_for_overlap();
+  if (sim_.steps() > 0) sim_.look_for_overlap();
   OutputFrame frame = make_frame(sim_, frame_);
   frame.time = time;
   results_.write_frame(frame);

@@ -122,8 +122,10 @@ bool Body::pressure_on_grid(const Scene& scene) const {
          (scene.method.grid_pressure == GridPressure::fluids && is_fluid());
 }
 
-double Body::signal_speed() const {
-  return sound_speed_ * std::max(std::sqrt(2.0), q_lin_ + std::sqrt(1 + q_lin_ * q_lin_));
+double Body::signal_speed(double bulk) const {
+  const double shear = 4.0 / 3.0 * material_->shear_modulus / material_->density,
+               speed = std::max(sound_speed_, std::sqrt(bulk * bulk + shear));
+  return speed * std::max(std::sqrt(2.0), q_lin_ + std::sqrt(1 + q_lin_ * q_lin_));
 }
 
 bool Body::is_fluid() const {

@@ -53,6 +53,7 @@ void Simulation::set_value(int s, int point, int slot, double x) {
 
 void Simulation::book_change() {
   if (sph_) sph_->find_forces();
+  if (mesh_) mesh_->find_forces();
   const Totals now = totals();
   audit_.external_work += now.kinetic + now.internal - (audit_.kinetic + audit_.internal);
   audit_.kinetic = now.kinetic;

@@ -138,16 +138,20 @@ void Simulation::adopt_converted() {
     const auto b = static_cast<std::size_t>(points.body);
     const PointColumns& c = kernel_data_[b].columns;
     audit_.book_converted(points.heat, points.barotropic);
-    audit_.book_removed(adopt(grid_, points.body, points.records, boundary_, c));
+    const Removed gone = adopt(grid_, points.body, points.records, boundary_, c);
+    audit_.book_removed(gone);
+    if (points.barotropic) audit_.unfelt_removed += gone.internal;
     // Their own limit is known after their first step.
     const auto width = static_cast<std::size_t>(c.stride / kLanes);
-    double fastest = 0;
-    for (std::size_t k = 0; k < points.records.size(); k += width)
+    double fastest = 0, sound = 0;
+    for (std::size_t k = 0; k < points.records.size(); k += width) {
+      sound = std::max(sound, points.records[k + static_cast<std::size_t>(c.sound_speed / kLanes)]);
       for (int a = 0; a < geometry_.dimension; ++a)
         fastest = std::max(
             fastest,
             std::abs(points.records[k + static_cast<std::size_t>(c.velocity / kLanes + a)]));
-    const double rate = (2 * fastest + bodies_[b]->signal_speed()) * geometry_.inv_h;
+    }
+    const double rate = (2 * fastest + bodies_[b]->signal_speed(sound)) * geometry_.inv_h;
     if (rate > limit_.rate) limit_ = {rate, 1, points.body, points.records.front()};
   }
   grid_.rebuild(true);

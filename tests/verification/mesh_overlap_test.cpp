@@ -61,13 +61,13 @@ TEST_SUITE("verification") {
 
   // Full or not of a cell, sheared, of any size beside the cell: filled once.
   TEST_CASE("mesh overlap: a distorted mesh fills once") {
-    for (const double size : {0.4e-3, 1e-3, 2.5e-3}) {
+    for (const double size : {0.4e-3, 1e-3, 2.5e-3, 10e-3}) {
       CAPTURE(size);
       const int n = static_cast<int>(std::lround(10e-3 / size));
       Mesh mesh = block_mesh(2, {-5e-3, -5e-3, 0}, {5e-3, 5e-3, 0}, {n, n, 1});
       for (Vector3& x : mesh.nodes) {
         const Vector3 from = x;
-        x[0] += 0.3e-3 * std::sin(900 * from[1]) + 0.4 * from[1];
+        x[0] += 0.3e-3 * std::sin(900 * from[1]) + 0.4 * from[1] + 0.37e-3;
         x[1] += 0.3e-3 * std::sin(700 * from[0]);
       }
       MeshRun run{

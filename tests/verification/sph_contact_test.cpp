@@ -175,4 +175,22 @@ TEST_SUITE("verification") {
     CHECK(all_bits(*second.sim) == one);
     set_threads(before);
   }
+
+  // The points stand where particles are met, far from where the elements were.
+  TEST_CASE("particle contact: points that elements became are met") {
+    Run run = start_text(
+        "frame: plane_strain\ngrid: {cell: 1 mm, box: {min: [-10 mm, -10 mm], max: [40 mm, 10 "
+        "mm]}}\ntime: {end: 30 us, energy_error: off}\nmaterials: {metal: " +
+        kMetal +
+        "}\ncontact: {friction: 0}\nbodies:\n  block: {material: metal, velocity: [600 m/s, 0], "
+        "shape: {box: {min: [-4 mm, -2 mm], max: [0, 2 mm]}}, kinematics: {lagrangian_mesh: "
+        "{element: 1 mm, failure: {action: convert, when: {step: 1 s}}}}}\n"
+        "  wall: {material: metal, shape: {box: {min: [12 mm, -4 mm], max: [16 mm, 4 mm]}}, " +
+        kParticles + "}\n");
+    const Totals start = run.sim->totals();
+    run_to(run, run.scene->time.end);
+    REQUIRE(run.sim->mesh()->converted().all() > 0);
+    CHECK(run.sim->totals(1).momentum[0] > 0.9 * start.momentum[0]);
+    CHECK(std::abs(run.sim->totals().momentum[0] / start.momentum[0] - 1) < 1e-12);
+  }
 }

@@ -34,8 +34,9 @@ class Body {
   void require_thickness(double cell) const;
   double q_lin() const { return q_lin_; }
   double initial_sound_speed() const { return sound_speed_; }  ///< longitudinal, undeformed [m/s]
-  /// What a first step reckons with, viscosity and free corners included [m/s].
-  double signal_speed() const;
+  /// What a first step reckons with, viscosity and free corners included, from a bulk sound speed
+  /// (or that of the undeformed material, if it is greater) [m/s].
+  double signal_speed(double bulk = 0) const;
   bool is_fluid() const;  ///< or a soft solid, G below 1 % of K
   /// The step integrates the pressure on the grid (mpm/grid_pressure.hpp).
   bool pressure_on_grid(const Scene& scene) const;

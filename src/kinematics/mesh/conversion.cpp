@@ -10,7 +10,7 @@ namespace krater {
 
 namespace {
 
-constexpr int kMostParts = 4;     // along an axis
+constexpr double kMostParts = 4;  // along an axis
 constexpr double kLongest = 0.6;  // of a part [cells]: half a cell, and some stretch
 
 /// The corners of one element, now.
@@ -54,7 +54,8 @@ std::array<int, 3> parts_of(const Corners& at, double cell) {
     }
   std::array<int, 3> out{1, 1, 1};
   for (std::size_t k = 0; k < at.dim; ++k)
-    out[k] = std::clamp(static_cast<int>(std::ceil(longest[k] / (kLongest * cell))), 1, kMostParts);
+    out[k] =
+        static_cast<int>(std::clamp(std::ceil(longest[k] / (kLongest * cell)), 1.0, kMostParts));
   return out;
 }
 
@@ -121,8 +122,12 @@ void convert_element(MeshStep::Elements& b, int i, bool axisymmetric) {
   const Mesh& mesh = b.made_of.mesh;
   const Corners at = corners_now(b, i);
   const auto element = static_cast<std::size_t>(i);
-  const std::array<int, 3> counts = parts_of(at, to.cell);
-  const std::vector<double> volumes = part_volumes(mesh, element, axisymmetric, counts);
+  std::array<int, 3> counts = parts_of(at, to.cell);
+  std::vector<double> volumes = part_volumes(mesh, element, axisymmetric, counts);
+  if (std::any_of(volumes.begin(), volumes.end(), [](double v) { return !(v > 0); })) {
+    counts = {1, 1, 1};  // so skewed at the start that a part of it is inside out
+    volumes = part_volumes(mesh, element, axisymmetric, counts);
+  }
   const std::vector<Triple> middle = middles(counts);
   std::array<double, 8> whole{};
   std::array<Triple, 8> start{};

@@ -74,6 +74,8 @@ struct MeshStep::Elements {
 std::array<double, kLanes> least_corners(const MeshStep::Elements& body, std::size_t group);
 /// The exposed faces of what there is now.
 std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& body);
+/// Of these, those that were exposed at the start.
+std::vector<std::array<std::int32_t, 4>> first_faces_of(const MeshStep::Elements& body);
 /// Element i as points, among those `converted`.
 void convert_element(MeshStep::Elements& body, int i, bool axisymmetric);
 /// Which elements there are, and where, from their numbers, which were put back.

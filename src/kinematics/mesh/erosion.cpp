@@ -180,7 +180,10 @@ ElementNeighbours find_neighbours(const Mesh& mesh) {
   return out;
 }
 
-std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& b) {
+namespace {
+
+/// Of elements that are left, where nothing was beside them or, if asked, where nothing is now.
+std::vector<std::array<std::int32_t, 4>> exposed_now(const MeshStep::Elements& b, bool also_new) {
   if (!b.erodes()) return exposed_faces(b.made_of.mesh);
   const auto& faces = element_faces(b.made_of.mesh.dimension);
   const ElementNeighbours& first = b.first;
@@ -188,13 +191,22 @@ std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& b) {
   for (std::size_t e = 0; e < first.alive.size(); ++e)
     for (std::size_t f = 0; first.alive[e] && f < faces.size(); ++f) {
       const std::int32_t beside = first.beside[e * faces.size() + f];
-      if (beside >= 0 && first.alive[static_cast<std::size_t>(beside)]) continue;
+      if (beside >= 0 && (!also_new || first.alive[static_cast<std::size_t>(beside)])) continue;
       std::array<std::int32_t, 4> face{-1, -1, -1, -1};
       for (std::size_t k = 0; k < faces[f].size(); ++k)
         face[k] = first.corners[e * b.corner_count() + faces[f][k]];
       out.push_back(face);
     }
   return out;
+}
+
+}  // namespace
+
+std::vector<std::array<std::int32_t, 4>> faces_of(const MeshStep::Elements& b) {
+  return exposed_now(b, true);
+}
+std::vector<std::array<std::int32_t, 4>> first_faces_of(const MeshStep::Elements& b) {
+  return exposed_now(b, false);
 }
 
 bool MeshStep::erode() {

@@ -247,7 +247,7 @@ std::vector<BodyBox> MeshContact::boxes() const {
     BodyBox of{b.body, {}};
     for (std::size_t n = 0; n < b.count; ++n) {
       const double* x = b.records + kNode * n;
-      of.box.hold({x[0], x[1], x[2]});
+      if (x[kMass] > 0) of.box.hold({x[0], x[1], x[2]});
     }
     out.push_back(of);
   }

@@ -88,11 +88,12 @@ void MeshLoads::find_faces(const MeshStep::Elements& b, OfBody& out) const {
   if (out.elements == now) return;  // elements are taken out, and never put back
   out.elements = now;
   out.faces.clear();
-  const std::vector<Face> faces = faces_of(b);
+  const std::vector<Face> now_exposed = faces_of(b), at_start = first_faces_of(b);
   for (std::size_t k = 0; k < options_.faces.size(); ++k) {
     const std::vector<int>& bodies = options_.faces[k].bodies;
     if (std::find(bodies.begin(), bodies.end(), b.made_of.body) == bodies.end()) continue;
-    for (const Face& face : faces)
+    const bool follows = options_.faces[k].kind == FaceLoad::Kind::pressure && !b.converts();
+    for (const Face& face : follows ? now_exposed : at_start)
       if (selects(options_.faces[k], b.made_of.mesh, face)) out.faces.push_back({k, face});
   }
 }
@@ -147,15 +148,17 @@ void MeshLoads::press(MeshStep::Elements& b, OfBody& of, double dt) const {
 void MeshLoads::push_masses(MeshStep::Elements& b, OfBody& of, double dt) const {
   const double half = 0.5 * options_.damping * dt;
   const auto dim = static_cast<std::size_t>(dimension(frame_));
+  if (body_force_)  // one after the other: an expression has one place for its variables
+    for (std::size_t n = 0; n < b.node_count; ++n) {
+      const double* node = b.node(n);
+      const Triple push = body_force_({node[0], node[1], node[2]}, b.made_of.mesh.nodes[n], time_);
+      for (std::size_t a = 0; a < dim; ++a) of.given[kGiven * n + 6 + a] = dt * push[a];
+    }
   for_each((b.node_count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     for (std::size_t n = chunk * kChunk; n < std::min((chunk + 1) * kChunk, b.node_count); ++n) {
       double *node = b.node(n), *change = b.change(n), *given = of.given.data() + kGiven * n;
       if (!(node[3] > 0)) continue;
-      Triple push{};
-      if (body_force_)
-        push = body_force_({node[0], node[1], node[2]}, b.made_of.mesh.nodes[n], time_);
       for (std::size_t a = 0; a < dim; ++a) {
-        given[6 + a] = dt * push[a];
         change[a] += given[6 + a];
         given[3 + a] = -half * (2 * node[4 + a] + change[a]) / (1 + half);
         change[a] += given[3 + a];

@@ -13,8 +13,8 @@ namespace krater {
 
 namespace {
 
-constexpr double kTwice = 1.2;   // filling that one layer of matter does not reach
-constexpr int kMostSamples = 8;  // along an axis of an element
+constexpr double kTwice = 1.2;       // filling that one layer of matter does not reach
+constexpr double kMostSamples = 64;  // along an axis of an element
 
 using Fillings = std::unordered_map<std::uint64_t, double>;
 
@@ -85,21 +85,41 @@ double map_at(const Corners& c, const Triple& xi, Triple& x) {
   return J.determinant();
 }
 
-/// Midpoints of n^dim parts, no further apart than half a cell.
-void add_element(const Corners& c, double cell, Fillings& out) {
-  double longest = 0;
+/// Samples along each axis, no further apart than half a cell.
+std::array<int, 3> samples_of(const Corners& c, double cell) {
+  std::array<double, 3> longest{};
   for (int I = 0; I < corner_nodes(c.dim); ++I)
-    for (int J = I + 1; J < corner_nodes(c.dim); ++J)
-      for (std::size_t a = 0; a < 3; ++a)
-        longest = std::max(longest, std::abs(c.x[static_cast<std::size_t>(I)][a] -
-                                             c.x[static_cast<std::size_t>(J)][a]));
-  const int n = std::clamp(static_cast<int>(std::ceil(2 * longest / cell)), 1, kMostSamples);
-  const double part = std::pow(2.0 / (n * cell), c.dim);
-  for (int k = 0; k < (c.dim == 3 ? n : 1); ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
+    for (int J = I + 1; J < corner_nodes(c.dim); ++J) {
+      std::size_t axis = 0, differ = 0;
+      double square = 0;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(c.dim); ++k) {
+        const double by = c.x[static_cast<std::size_t>(I)][k] - c.x[static_cast<std::size_t>(J)][k];
+        square += by * by;
+        if (corner_sign(c.dim, I, static_cast<int>(k)) ==
+            corner_sign(c.dim, J, static_cast<int>(k)))
+          continue;
+        axis = k;
+        ++differ;
+      }
+      if (differ == 1) longest[axis] = std::max(longest[axis], std::sqrt(square));
+    }
+  std::array<int, 3> out{1, 1, 1};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(c.dim); ++k)
+    out[k] = static_cast<int>(std::clamp(std::ceil(2 * longest[k] / cell), 1.0, kMostSamples));
+  return out;
+}
+
+/// Midpoints of parts.
+void add_element(const Corners& c, double cell, Fillings& out) {
+  const std::array<int, 3> n = samples_of(c, cell);
+  double part = 1;
+  for (int k = 0; k < c.dim; ++k) part *= 2.0 / (n[static_cast<std::size_t>(k)] * cell);
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i) {
         Triple x;
-        const Triple xi{(2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1, (2 * k + 1.0) / n - 1};
+        const Triple xi{(2 * i + 1.0) / n[0] - 1, (2 * j + 1.0) / n[1] - 1,
+                        (2 * k + 1.0) / n[2] - 1};
         const double volume = map_at(c, xi, x) * part;
         add_sample(x, volume, c.dim, cell, out);
       }

@@ -64,7 +64,11 @@ std::vector<SpaceBox> SphContact::boxes() {
     out[static_cast<std::size_t>(patch.body)].hold(box.high);
   }
   if (meshes_)
-    for (const BodyBox& of : meshes_->boxes()) out[static_cast<std::size_t>(of.body)] = of.box;
+    for (const BodyBox& of : meshes_->boxes())  // beside the points that its elements became
+      if (of.box.low[0] <= of.box.high[0]) {
+        out[static_cast<std::size_t>(of.body)].hold(of.box.low);
+        out[static_cast<std::size_t>(of.body)].hold(of.box.high);
+      }
   return out;
 }
 

@@ -11,7 +11,9 @@
 /// equilibrium with the uniform stress -p to round-off. In axial symmetry dA holds 2 pi r; both by
 /// two Gauss points along each edge, which is exact.
 /// A face is loaded if it looked along N at the start and its middle lay in the load's region
-/// there: so also one that erosion exposes. A pressure acts along the true normal, where points
+/// there. Faces that erosion exposes are pressed too, inner ones that way included; other loads,
+/// and those of a body whose elements become points, end with the elements of the start's faces:
+/// points that elements became carry none. A pressure acts along the true normal, where points
 /// (kinematics/mpm/node_loads.hpp), whose surface is not known, take N.
 /// Work is that of the mean velocity, sum f . (v- + v+)/2 dt, whatever contact and sides did after.
 #include <functional>
