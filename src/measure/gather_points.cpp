@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 #include "krater/core/parallel.hpp"
 #include "krater/measure/measurements.hpp"
@@ -81,6 +83,31 @@ void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& 
   }
 }
 
+/// A point that part of an element became, beside the surface of the elements that are left: as
+/// wide along each axis as a cube (a square of the section) of its volume, up to the domain's
+/// sides.
+void add_crosses(const Simulation& sim, int set, std::vector<std::array<Triple, 2>>& edges) {
+  const PointSet p = sim.set(set);
+  const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
+  const int x = body.slot(field::Position::info), m = body.slot(field::Mass::info),
+            rho = body.slot(field::Density::info), dim = sim.geometry().dimension;
+  for (int i = 0; i < p.count(); ++i) {
+    const double* point = p.points->point(i);
+    Triple at{};
+    for (int a = 0; a < dim; ++a) at[static_cast<std::size_t>(a)] = point[kLanes * (x + a)];
+    double volume = point[kLanes * m] / point[kLanes * rho];
+    if (sim.scene().frame == Frame::axisymmetric) volume /= 2 * std::numbers::pi * at[0];
+    const double half = 0.5 * std::pow(volume, 1.0 / dim);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
+      std::array<Triple, 2> edge{at, at};
+      const double low = sim.geometry().min[a], high = sim.geometry().upper(static_cast<int>(a));
+      edge[0][a] = std::max(at[a] - half, std::min(at[a], low));
+      edge[1][a] = std::min(at[a] + half, std::max(at[a], high));
+      edges.push_back(edge);
+    }
+  }
+}
+
 }  // namespace
 
 MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies) {
@@ -136,7 +163,10 @@ void gather_points(const Simulation& sim, const std::vector<int>& bodies, const 
           {&values, slot_of(*sim.bodies()[static_cast<std::size_t>(bodies[b])], name)});
   out.edges.clear();
   for (const SetPlace& place : places) {
-    if (!sim.is_mesh_set(place.set)) continue;
+    if (!sim.is_mesh_set(place.set)) {
+      if (sim.is_mesh(bodies[place.body])) add_crosses(sim, place.set, out.edges);
+      continue;
+    }
     for (const auto& [a, b] : sim.mesh()->surface(place.set))
       out.edges.push_back({sim.mesh()->position(place.set, static_cast<std::size_t>(a)),
                            sim.mesh()->position(place.set, static_cast<std::size_t>(b))});

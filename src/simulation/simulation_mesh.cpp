@@ -141,6 +141,11 @@ void Simulation::adopt_converted() {
     const Removed gone = adopt(grid_, points.body, points.records, boundary_, c);
     audit_.book_removed(gone);
     if (points.barotropic) audit_.unfelt_removed += gone.internal;
+    if (!loads_of(scene_, points.body).empty())
+      warnings_.add("load_lost", time(),
+                    fmt::format("elements of body '{}', on which loads act, became points: these "
+                                "carry none, so the load ends where its faces convert",
+                                bodies_[b]->name()));
     // Their own limit is known after their first step.
     const auto width = static_cast<std::size_t>(c.stride / kLanes);
     double fastest = 0, sound = 0;

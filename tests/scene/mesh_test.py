@@ -224,6 +224,10 @@ def main():
         with h5py.File(frame) as file:
             corners, ids, points = (file[name][()] for name in ("bar/connectivity", "bar/id", "bar_points/id"))
         whole = len(ids) + told["audit"]["converted_elements"]
+        with h5py.File(frame) as file:
+            foot = file["bar_points/coordinates"][()][:, 0].max()
+        check(foot < told["measures"]["widest"]["value"] / 2 < foot + 0.6e-3,
+              "measures of shape see the points, too", told["measures"])
         check(len(corners) == len(ids) > 0 and (ids < whole).all()
               and len({(number - whole) // 64 for number in points}) == whole - len(ids),
               "frames have the elements that are left and the points of the others")

@@ -57,6 +57,14 @@ Areas areas_of(const std::array<Triple, 4>& x, const Face& face, bool round) {
   return corners_of(face) == 2 ? edge_areas(x, round) : quad_areas(x);
 }
 
+/// On a plane of symmetry or the axis: no face of the whole body.
+bool lies_on_plane(const MeshStep::Elements& b, const Face& face) {
+  unsigned planes = ~0U;
+  for (const std::int32_t n : face)
+    if (n >= 0) planes &= b.on_plane[static_cast<std::size_t>(n)];
+  return planes != 0;
+}
+
 double outwards(const FaceLoad& load) { return load.side == 0 ? -1 : 1; }
 
 }  // namespace
@@ -94,7 +102,8 @@ void MeshLoads::find_faces(const MeshStep::Elements& b, OfBody& out) const {
     if (std::find(bodies.begin(), bodies.end(), b.made_of.body) == bodies.end()) continue;
     const bool follows = options_.faces[k].kind == FaceLoad::Kind::pressure && !b.converts();
     for (const Face& face : follows ? now_exposed : at_start)
-      if (selects(options_.faces[k], b.made_of.mesh, face)) out.faces.push_back({k, face});
+      if (!lies_on_plane(b, face) && selects(options_.faces[k], b.made_of.mesh, face))
+        out.faces.push_back({k, face});
   }
 }
 

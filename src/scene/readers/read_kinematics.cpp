@@ -63,6 +63,10 @@ void read_erosion(Block& mesh, MeshOptions& options, Reading& reading) {
           out.volume_ratio[1]);
     if (!(out.volume_ratio[0] < 1) || !(out.volume_ratio[1] > 1))
       block.fail(*inner, "least_volume must lie below 1 and greatest_volume above");
+    if (out.jacobian >= 1)
+      block.fail(*inner,
+                 "jacobian must lie below 1, which every corner of a brick has: 0.05 is "
+                 "an element that has collapsed");
     if (!out.any())
       block.fail(*inner,
                  "names nothing: failed, plastic_strain, least_volume, greatest_volume, "
@@ -91,6 +95,10 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     return string_node("lagrangian_mesh");
   }
   Block block{&node, node.path, node, reading.problems};
+  if (node.find("sph") && node.find("lagrangian_mesh")) {
+    block.fail("gives lagrangian_mesh and sph: a body has one of the two");
+    return node;
+  }
   if (const Node* inner = block.find("sph")) {
     block.record("sph", read_sph(inner, *inner, body, reading));
     return block.finish();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "krater/core/errors.hpp"
 #include "krater/scene/yaml/expression.hpp"
 #include "krater/scene/yaml/units.hpp"
@@ -213,6 +215,12 @@ std::optional<ReadTime> read_time_function(const Node& node, const char* unit, R
     out.value = make_time_function(node.text);
   } catch (const InputError& error) {
     fail(node, error.what(), reading);
+    return std::nullopt;
+  }
+  if (const double start = out.value(0); !std::isfinite(start)) {
+    fail(node,
+         fmt::format("is {} at t = 0: give a value, or {{table: [[time, value], ...]}}", start),
+         reading);
     return std::nullopt;
   }
   out.resolved = string_node(node.text);
