@@ -262,7 +262,7 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("mesh: Cook's membrane bends without locking, compressible or not") {
-    // Figures of ../shared/design/kinematics.md, by another code; the limits 21.51 and 18.48.
+    // Figures of the design of the elements, by another code; the limits 21.51 and 18.48.
     const std::pair<double, std::array<double, 4>> known[] = {
         {1.0 / 3, {20.59, 21.23, 21.42, 21.49}}, {0.4999, {17.05, 17.91, 18.27, 18.41}}};
     for (const auto& [nu, rises] : known)
