@@ -175,7 +175,8 @@ def speed_at(run, time):
     if run is None:
         return "-"
     history = run.history()
-    return f"{-np.interp(time, history['time'], history['projectile_velocity']):.0f}"
+    speed = -np.interp(time, history["time"], history["projectile_velocity"])
+    return f"{speed:.0f}" if np.isfinite(speed) else "no element left"
 
 
 def eroded(run):
