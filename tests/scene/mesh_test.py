@@ -65,6 +65,11 @@ REFUSED = {
     "a load on nothing": ("loads={push: {body: bar, face: z_max, pressure: 1 GPa, where: {r_min: 4 mm}}}", "nothing to act on"),
     "an unknown kinematics": ("bodies.bar.kinematics=peridynamics", "lagrangian_mesh"),
     "an unknown hourglass": ("bodies.bar.kinematics={lagrangian_mesh: {hourglass: stiff}}", "assumed_strain"),
+    "a load that is no number": ("loads={push: {body: bar, face: z_max, pressure: 1e6/t}}", "at t = 0"),
+    "a corner that all elements have": ("bodies.bar.kinematics={lagrangian_mesh: {failure: {when: {jacobian: 5}}}}",
+                                        "must lie below 1"),
+    "two kinematics": ("bodies.bar.kinematics={lagrangian_mesh: {}, sph: {}}", "one of the two"),
+    "a load on the axis": ("loads={push: {body: bar, face: r_min, pressure: 1 GPa}}", "nothing to act on"),
     "no length": ("bodies.bar.kinematics={lagrangian_mesh: {element: 0}}", "element"),
 }
 

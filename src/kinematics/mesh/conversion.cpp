@@ -37,21 +37,7 @@ Corners corners_now(const MeshStep::Elements& b, int i) {
 
 /// Parts along each axis of the element.
 std::array<int, 3> parts_of(const Corners& at, double cell) {
-  std::array<double, 3> longest{};
-  for (std::size_t I = 0; I < at.count; ++I)
-    for (std::size_t J = I + 1; J < at.count; ++J) {
-      std::size_t axis = 0, differ = 0;
-      for (std::size_t k = 0; k < at.dim; ++k)
-        if (kCornerSteps[I][k] != kCornerSteps[J][k]) {
-          axis = k;
-          ++differ;
-        }
-      if (differ != 1) continue;
-      double square = 0;
-      for (std::size_t a = 0; a < at.dim; ++a)
-        square += (at.x[J][a] - at.x[I][a]) * (at.x[J][a] - at.x[I][a]);
-      longest[axis] = std::max(longest[axis], std::sqrt(square));
-    }
+  const std::array<double, 3> longest = longest_edges(static_cast<int>(at.dim), at.x);
   std::array<int, 3> out{1, 1, 1};
   for (std::size_t k = 0; k < at.dim; ++k)
     out[k] =
@@ -172,7 +158,6 @@ void convert_element(MeshStep::Elements& b, int i, bool axisymmetric) {
   const double heat = (lost + b.hourglass_energy.data()[i]) / mass;
   for (std::size_t p = 0; p < middle.size(); ++p)
     put(p, c.energy, 0, b.elements.at(c.energy, i) + heat);
-  b.converted.elements += 1;
   b.converted.heat += lost;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/kinematics/mesh/mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -83,6 +84,25 @@ void add_part(const Mesh& mesh, std::size_t element, bool axisymmetric, const Ve
 }
 
 }  // namespace
+
+std::array<double, 3> longest_edges(int dimension, const std::array<Triple, 8>& x) {
+  std::array<double, 3> out{};
+  for (int I = 0; I < corner_nodes(dimension); ++I)
+    for (int J = I + 1; J < corner_nodes(dimension); ++J) {
+      std::size_t axis = 0, differ = 0;
+      double square = 0;
+      for (int k = 0; k < dimension; ++k) {
+        const auto a = static_cast<std::size_t>(k);
+        const double by = x[static_cast<std::size_t>(J)][a] - x[static_cast<std::size_t>(I)][a];
+        square += by * by;
+        if (corner_sign(dimension, I, k) == corner_sign(dimension, J, k)) continue;
+        axis = a;
+        ++differ;
+      }
+      if (differ == 1) out[axis] = std::max(out[axis], std::sqrt(square));
+    }
+  return out;
+}
 
 std::array<double, 8> corner_functions(int dimension, const std::array<double, 3>& xi) {
   return functions_at(dimension, xi).value;

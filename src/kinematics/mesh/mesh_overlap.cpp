@@ -87,22 +87,7 @@ double map_at(const Corners& c, const Triple& xi, Triple& x) {
 
 /// Samples along each axis, no further apart than half a cell.
 std::array<int, 3> samples_of(const Corners& c, double cell) {
-  std::array<double, 3> longest{};
-  for (int I = 0; I < corner_nodes(c.dim); ++I)
-    for (int J = I + 1; J < corner_nodes(c.dim); ++J) {
-      std::size_t axis = 0, differ = 0;
-      double square = 0;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(c.dim); ++k) {
-        const double by = c.x[static_cast<std::size_t>(I)][k] - c.x[static_cast<std::size_t>(J)][k];
-        square += by * by;
-        if (corner_sign(c.dim, I, static_cast<int>(k)) ==
-            corner_sign(c.dim, J, static_cast<int>(k)))
-          continue;
-        axis = k;
-        ++differ;
-      }
-      if (differ == 1) longest[axis] = std::max(longest[axis], std::sqrt(square));
-    }
+  const std::array<double, 3> longest = longest_edges(c.dim, c.x);
   std::array<int, 3> out{1, 1, 1};
   for (std::size_t k = 0; k < static_cast<std::size_t>(c.dim); ++k)
     out[k] = static_cast<int>(std::clamp(std::ceil(2 * longest[k] / cell), 1.0, kMostSamples));

@@ -39,7 +39,6 @@ struct PointsOfElements {
 struct ConvertedPoints {
   int body = -1;
   std::vector<double> records;
-  double elements = 0;
   double heat = 0;          ///< of their motion [J]
   bool barotropic = false;  ///< their pressure does not know it
 };

@@ -12,7 +12,7 @@
 ///   J_k = a_k,
 ///   f_I = 1/8 sum_m phi_m(I) (- S c_m - F_m),    S = sigma - 1/V sum_m F_m (x) a_m,
 /// F_m = sum_k e_k Q_ka of the hourglass modes, c_7 = 0. The same numbers as by the corners, to
-/// round-off, in a third of the operations: no sum over corners is left but sums and differences.
+/// round-off: no sum over corners is left but sums and differences.
 #pragma once
 
 #include "krater/core/tensor.hpp"

@@ -28,6 +28,9 @@ std::vector<double> corner_volumes(const Mesh& mesh, bool axisymmetric);
 std::vector<double> part_volumes(const Mesh& mesh, std::size_t element, bool axisymmetric,
                                  const std::array<int, 3>& counts);
 
+/// The longest edge of an element along each of its axes, of its corners' places.
+std::array<double, 3> longest_edges(int dimension, const std::array<Triple, 8>& x);
+
 /// N_I of an element at a point of [-1, 1]^dim.
 std::array<double, 8> corner_functions(int dimension, const std::array<double, 3>& xi);
 
