@@ -12,6 +12,8 @@ namespace {
 // Fill a column may lack and still count as touching: quadrature noise of a few points per cell is
 // several per cent, a gap of g cells costs 1.5 g; 0.25 closes gaps below 0.15 cells.
 constexpr double kFillTolerance = 0.25;
+// The same where the plane is a knot: 1/6 closes gaps below 0.16 cells.
+constexpr double kPairTolerance = 1.0 / 6;
 
 // Distance from the wall, in cells, at which a node of a fixed reference counts as touching.
 constexpr double kGapTolerance = 0.02;
@@ -56,11 +58,12 @@ double BoundarySet::position(int axis, int side, double later) const {
   return condition.travels(axis) ? at + condition.velocity[a] * (time_ + later) : at;
 }
 
-double BoundarySet::last_storage(int axis, int side) const {
+double BoundarySet::last_knots(int axis, int side, int level) const {
   const auto a = static_cast<unsigned>(axis);
+  double at = side == 0 ? 1.0 + clearance(axis) - 0.5 : geometry_.cells[a] + 0.5;
   if (conditions_[a][static_cast<unsigned>(side)].travels(axis))
-    return geometry_.storage(position(axis, side, step_), axis);
-  return side == 0 ? 1.0 + clearance(axis) : geometry_.cells[a] + 1.0;
+    at = geometry_.knots(position(axis, side, step_), axis);
+  return std::ldexp(at, level);  // exact, as the knots of all points are
 }
 
 double BoundarySet::clearance(int axis) const {
@@ -70,13 +73,20 @@ double BoundarySet::clearance(int axis) const {
 
 bool BoundarySet::beyond(int axis, int side, double x) const {
   const auto a = static_cast<unsigned>(axis);
-  if (side != 0) return geometry_.storage(x, axis) > last_storage(axis, 1);
+  if (side != 0) return geometry_.knots(x, axis) > last_knots(axis, 1);
   if (conditions_[a][0].travels(axis)) return x < position(axis, 0, step_);
   return x < geometry_.min[a] + clearance(axis) * geometry_.h;
 }
 
 void BoundarySet::place(Plane& plane) const {
-  const double s = geometry_.storage(position(plane.axis, plane.side), plane.axis);
+  plane.on_knot = plane.geometry.planes_on_knots() && !plane.condition->travels(plane.axis);
+  if (plane.on_knot) {
+    const double s =
+        plane.side == 0 ? plane.geometry.lower_storage() : plane.geometry.upper_storage(plane.axis);
+    plane.line = static_cast<int>(s + 0.5 * plane.inward);
+    return;
+  }
+  const double s = plane.geometry.storage(position(plane.axis, plane.side), plane.axis);
   plane.line = static_cast<int>(std::lround(s));
   plane.beyond = plane.inward * (s - plane.line);
 }
@@ -100,22 +110,25 @@ void BoundarySet::relink(BlockGrid& grid) {
       const Boundary& condition =
           conditions_[static_cast<unsigned>(axis)][static_cast<unsigned>(side)];
       if (!condition.closed()) continue;
-      Plane& plane = planes_.emplace_back();
-      plane.axis = axis;
-      plane.side = side;
-      plane.inward = side == 0 ? 1.0 : -1.0;
-      plane.condition = &condition;
-      place(plane);
-      add_columns(grid, plane);
-      if (condition.pushes()) link_columns(plane);
+      for (int level = 0; level < grid.levels().count(); ++level) {
+        Plane& plane = planes_.emplace_back();
+        plane.axis = axis;
+        plane.side = side;
+        plane.inward = side == 0 ? 1.0 : -1.0;
+        plane.condition = &condition;
+        plane.geometry = grid.geometry(level);
+        place(plane);
+        add_columns(grid, plane);
+        if (condition.pushes()) link_columns(plane);
+      }
     }
   list_held_nodes();
 }
 
 void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
   const int dimension = geometry_.dimension, edge = block_edge(dimension);
-  const int inward = plane.side == 0 ? 1 : -1;
   for (NodeBlock& block : grid.node_blocks()) {
+    if (block.key.level != plane.geometry.level) continue;
     const int start = block.key.i[static_cast<unsigned>(plane.axis)] * edge;
     for (int i = plane.line - 1; i <= plane.line + 1; ++i)  // a node of a column in this block
       if (i >= start && i < start + edge) block.at_boundary = true;
@@ -128,32 +141,44 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
       for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)
         index[static_cast<unsigned>(a)] =
             block.key.i[static_cast<unsigned>(a)] * edge + rest % edge;
-      if (index[static_cast<unsigned>(plane.axis)] != plane.line) continue;
-      std::array<int, 3> ghost = index, inner = index;
-      ghost[static_cast<unsigned>(plane.axis)] -= inward;
-      inner[static_cast<unsigned>(plane.axis)] += inward;
-      const auto node = [&](const std::array<int, 3>& at) {
-        return grid.find_node(at, block.field);
-      };
-      Column column{node(ghost), node(index), node(inner), block.field, !rigid, {},
-                    0,           {},          {},          {},          {}};
-      if (column.ghost == nullptr || column.inner == nullptr) continue;
-      for (int a = 0, side = 0; a < dimension; ++a)
-        for (const int step : {-1, 1}) {
-          if (a == plane.axis) continue;
-          std::array<int, 3> next = index;
-          next[static_cast<unsigned>(a)] += step;
-          column.beside[static_cast<unsigned>(side++)] = node(next);
-        }
-      plane.columns.push_back(column);
-      block.at_wall = block.at_wall || plane.condition->kind == BoundaryKind::wall;
+      if (index[static_cast<unsigned>(plane.axis)] == plane.line)
+        add_column(grid, plane, block, index);
     }
   }
 }
 
+void BoundarySet::add_column(BlockGrid& grid, Plane& plane, NodeBlock& block,
+                             const std::array<int, 3>& index) const {
+  const int inward = plane.side == 0 ? 1 : -1;
+  const auto node = [&](int axis, int step) {
+    std::array<int, 3> at = index;
+    at[static_cast<unsigned>(axis)] += step;
+    return grid.find_node(at, block.field, block.key.level);
+  };
+  double* const ghost = node(plane.axis, -inward);
+  double* const own = node(plane.axis, 0);
+  double* const after = node(plane.axis, inward);
+  Column column{};
+  column.ghost = ghost;
+  column.plane = plane.on_knot ? nullptr : own;
+  column.inner = plane.on_knot ? own : after;
+  column.next = plane.on_knot ? after : nullptr;
+  column.field = block.field;
+  const auto field = static_cast<std::size_t>(block.field);
+  column.moves_points = field >= rigid_.size() || !rigid_[field];
+  if (column.ghost == nullptr || column.inner == nullptr) return;
+  for (int a = 0, side = 0; a < geometry_.dimension; ++a)
+    for (const int step : {-1, 1}) {
+      if (a == plane.axis) continue;
+      column.beside[static_cast<unsigned>(side++)] = node(a, step);
+    }
+  plane.columns.push_back(column);
+  block.at_wall = block.at_wall || plane.condition->kind == BoundaryKind::wall;
+}
+
 void BoundarySet::link_columns(Plane& plane) {
   std::unordered_map<const double*, int> at;
-  for (const Column& c : plane.columns) at[c.plane] = static_cast<int>(at.size());
+  for (const Column& c : plane.columns) at[c.anchor()] = static_cast<int>(at.size());
   for (Column& c : plane.columns)
     for (std::size_t k = 0; k < c.beside.size(); ++k) {
       const auto found = at.find(c.beside[k]);
@@ -165,7 +190,8 @@ void BoundarySet::list_held_nodes() {
   std::vector<double*> nodes;
   for (const Plane& plane : planes_)
     if (plane.condition->pushes())
-      for (const Column& c : plane.columns) nodes.insert(nodes.end(), {c.ghost, c.plane, c.inner});
+      for (const Column& c : plane.columns)
+        nodes.insert(nodes.end(), {c.ghost, c.anchor(), c.inner});
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   held_.clear();
@@ -176,10 +202,15 @@ void BoundarySet::list_held_nodes() {
   };
   for (Plane& plane : planes_)
     if (plane.condition->pushes())
-      for (Column& c : plane.columns) c.held = {place(c.ghost), place(c.plane), place(c.inner)};
+      for (Column& c : plane.columns) {
+        c.held = {place(c.ghost), place(c.anchor()),
+                  place(c.inner)};  // anchor: the inner one on a knot
+        c.held_count = c.plane != nullptr ? 3 : 2;
+      }
   for (const Plane& plane : planes_)
     if (plane.condition->folds())
       for (const Column& c : plane.columns) {
+        if (c.plane == nullptr) continue;
         const std::size_t i = place(c.plane);
         if (i == nodes.size() || nodes[i] != c.plane) continue;
         for (int a = 0; a < 3; ++a)
@@ -241,7 +272,10 @@ BoundaryWork BoundarySet::constrain() {
 /// and 1.4 of their due, and where they were let go the points beside were pressed through.
 void BoundarySet::note_fills(Plane& plane) {
   for (Column& c : plane.columns)
-    c.fill = {c.plane[moved::volume], c.inner[moved::volume] + c.ghost[moved::volume]};
+    c.fill = c.plane != nullptr ? std::array{c.plane[moved::volume],
+                                             c.inner[moved::volume] + c.ghost[moved::volume]}
+                                : std::array{c.inner[moved::volume] + c.ghost[moved::volume],
+                                             c.next != nullptr ? c.next[moved::volume] : 0.0};
   std::vector<std::array<double, 2>> raw(plane.columns.size());
   for (std::size_t axis = 0; axis < 4; axis += 2) {
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = plane.columns[i].fill;
@@ -260,7 +294,7 @@ void BoundarySet::note_fills(Plane& plane) {
 // What a side that folds holds at rest, no other side moves: the forces there were folded away, and
 // their work with it.
 void BoundarySet::keep_folded(const Column& c) {
-  for (const std::size_t i : c.held) {
+  for (const std::size_t i : c.held_nodes()) {
     const Held& h = held_[i];
     for (int a = 0; a < 3; ++a)
       if ((h.folded >> a & 1U) != 0) set_velocity(h.node, a, h.before[static_cast<unsigned>(a)]);
@@ -271,7 +305,7 @@ void BoundarySet::keep_folded(const Column& c) {
 void BoundarySet::note_push(const Plane& plane, const Column& c, BoundaryWork& sum) {
   double work = 0;
   Triple impulse{};
-  for (const std::size_t i : c.held) {
+  for (const std::size_t i : c.held_nodes()) {
     Held& h = held_[i];
     const double m = h.before[moved::mass];
     std::array<double, 3> change{};
@@ -303,6 +337,7 @@ void BoundarySet::mirror_work() const {
 
 bool BoundarySet::touches(const Plane& plane, const Column& c) const {
   if (fixed_reference_) return c.gap <= kGapTolerance * geometry_.h;
+  if (plane.on_knot) return c.fill[0] > (1 - kPairTolerance) * c.fill[1];
   const Fill whole = whole_fill(plane.beyond);
   return c.fill[0] * whole.rest > (1 - kFillTolerance) * whole.plane * c.fill[1];
 }
@@ -311,20 +346,22 @@ bool BoundarySet::touches(const Plane& plane, const Column& c) const {
 bool BoundarySet::hold(const Plane& plane, const Column& c) const {
   const int n = plane.axis;
   const Boundary& condition = *plane.condition;
-  const double m_g = c.ghost[moved::mass], m_0 = c.plane[moved::mass], m_1 = c.inner[moved::mass];
-  if (m_0 <= 0) return false;
-  const double c_g = -(1 + plane.beyond) / (1 - plane.beyond),
-               c_0 = -plane.beyond / (1 - plane.beyond);
+  double none[kNodeDoubles] = {};  // where the plane is a knot
+  double* const at_plane = plane.on_knot ? none : c.plane;
+  const double m_g = c.ghost[moved::mass], m_0 = at_plane[moved::mass], m_1 = c.inner[moved::mass];
+  if (m_0 <= 0 && !plane.on_knot) return false;
+  const double c_g = plane.on_knot ? -1 : -(1 + plane.beyond) / (1 - plane.beyond),
+               c_0 = plane.on_knot ? 0 : -plane.beyond / (1 - plane.beyond);
   const double mass = m_1 + c_g * c_g * m_g + c_0 * c_0 * m_0;
   const auto joint = [&](int a) {  // of the inner node, relative to the plane
     const double w = condition.velocity[static_cast<unsigned>(a)];
     return mass > 0 ? (m_1 * (c.inner[a] - w) + c_g * (m_g * (c.ghost[a] - w)) +
-                       c_0 * (m_0 * (c.plane[a] - w))) /
+                       c_0 * (m_0 * (at_plane[a] - w))) /
                           mass
                     : 0;
   };
   const double w = condition.velocity[static_cast<unsigned>(n)], u = joint(n);
-  const double push_plane = plane.inward * m_0 * (w + c_0 * u - c.plane[n]),
+  const double push_plane = plane.inward * m_0 * (w + c_0 * u - at_plane[n]),
                push_rest =
                    plane.inward * (m_1 * (w + u - c.inner[n]) + m_g * (w + c_g * u - c.ghost[n]));
   const double push = push_plane + push_rest;
@@ -341,13 +378,14 @@ bool BoundarySet::hold(const Plane& plane, const Column& c) const {
     }
     const double v = condition.velocity[static_cast<unsigned>(a)], relative = joint(a);
     set_velocity(c.ghost, a, v + c_g * relative);
-    set_velocity(c.plane, a, v + c_0 * relative);
+    set_velocity(at_plane, a, v + c_0 * relative);
     set_velocity(c.inner, a, v + relative);
   }
   if (condition.friction > 0 && !std::isinf(condition.friction)) {
     const double both = std::max(0.0, push_plane) + std::max(0.0, push_rest);
     const double share = condition.friction * push / both;
-    slow_down(c.plane, n, condition.velocity, share * std::max(0.0, push_plane) / m_0);
+    if (m_0 > 0)
+      slow_down(at_plane, n, condition.velocity, share * std::max(0.0, push_plane) / m_0);
     if (together > 0) {
       slow_down(c.inner, n, condition.velocity, share * std::max(0.0, push_rest) / together);
       slow_down(c.ghost, n, condition.velocity, share * std::max(0.0, push_rest) / together);

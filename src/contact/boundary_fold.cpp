@@ -6,9 +6,9 @@
 
 namespace krater {
 
-void BoundarySet::fold() {
+void BoundarySet::fold(int level) {
   for (Plane& plane : planes_) {
-    if (!plane.condition->folds()) continue;
+    if (plane.geometry.level != level || !plane.condition->folds()) continue;
     for (Column& c : plane.columns) fold_column(plane, c);
   }
 }
@@ -19,17 +19,18 @@ void BoundarySet::fold_column(Plane& plane, Column& c) const {
     const auto k = static_cast<unsigned>(a);
     const bool odd = plane.odd(a);
     const double sign = odd ? -1.0 : 1.0;
-    double &p = c.inner[summed::momentum + a], &p_0 = c.plane[summed::momentum + a],
-           &p_g = c.ghost[summed::momentum + a];
+    double &p = c.inner[summed::momentum + a], &p_g = c.ghost[summed::momentum + a];
     if (odd) {
       c.folded.ghost_momentum[k] = p_g;
       c.folded.ghost_force[k] = c.ghost[summed::force + a];
-      c.folded.plane_momentum[k] = p_0;
-      c.folded.plane_force[k] = c.plane[summed::force + a];
     }
     p += sign * p_g;
     c.inner[summed::force + a] += sign * c.ghost[summed::force + a];
-    if (odd) p_0 = c.plane[summed::force + a] = 0;
+    if (!odd || c.plane == nullptr) continue;
+    double &p_0 = c.plane[summed::momentum + a], &f_0 = c.plane[summed::force + a];
+    c.folded.plane_momentum[k] = p_0;
+    c.folded.plane_force[k] = f_0;
+    p_0 = f_0 = 0;
   }
   c.inner[summed::mass] += c.ghost[summed::mass];
   c.inner[moved::volume] += c.ghost[moved::volume];
@@ -57,9 +58,9 @@ BoundaryWork BoundarySet::folded(double dt, double alpha) const {
   return sum;
 }
 
-void BoundarySet::mirror() const {
+void BoundarySet::mirror(int level) const {
   for (const Plane& plane : planes_) {
-    if (!plane.condition->folds()) continue;
+    if (plane.geometry.level != level || !plane.condition->folds()) continue;
     for (const Column& c : plane.columns) {
       for (int a = 0; a < 3; ++a) {
         const double sign = plane.odd(a) ? -1.0 : 1.0;

@@ -75,9 +75,10 @@ void RigidBodies::finish(const BlockGrid& grid, double dt) {
   sides_.assign(grid.patches().size(), 0);
 }
 
-void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry,
+void RigidBodies::move(std::size_t p, Patch& patch, const Levels& levels,
                        const BoundarySet& boundary, const PointColumns& c, unsigned char* leavers) {
   const RigidBody& body = *find(patch.body);
+  const GridGeometry& geometry = levels.geometry(patch.key.level);
   const int dimension = geometry.dimension;
   PatchResult& result = patch.result;
   result.kinetic = result.max_rate = 0;
@@ -93,7 +94,7 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
       patch.points.at(c.position + kLanes * a, i) = x[a];
       patch.points.at(c.velocity + kLanes * a, i) = v[a];
       const double s = geometry.storage(x[a], a);
-      const bool low = s<1, high = s> geometry.cells[static_cast<unsigned>(a)] + 1.0;
+      const bool low = s<geometry.lower_storage(), high = s> geometry.upper_storage(a);
       outside = outside || low || high;
       if ((low || high) && !boundary.is_open(a, low ? 0 : 1))
         sides_[p] = static_cast<signed char>(1 + 2 * a + (low ? 0 : 1));
@@ -104,7 +105,7 @@ void RigidBodies::move(std::size_t p, Patch& patch, const GridGeometry& geometry
       }
     }
     result.kinetic += 0.5 * patch.points.at(c.mass, i) * v.squaredNorm();
-    if (outside || block_of(geometry, x.data()) != patch.key)
+    if (outside || levels.block_at(x.data()) != patch.key)
       leavers[i / kLanes] = static_cast<unsigned char>(leavers[i / kLanes] | 1U << (i % kLanes));
   }
 }

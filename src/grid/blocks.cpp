@@ -2,7 +2,6 @@
 #include "krater/grid/blocks.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace krater {
 
@@ -27,7 +26,7 @@ constexpr std::array<Offset, 27> plane_offsets = neighbour_offsets(2),
 BlockKey shifted(const BlockKey& key, int slot, int dimension) {
   const Offset& offset =
       (dimension == 3 ? space_offsets : plane_offsets)[static_cast<std::size_t>(slot)];
-  return {{key.i[0] + offset[0], key.i[1] + offset[1], key.i[2] + offset[2]}};
+  return {{key.i[0] + offset[0], key.i[1] + offset[1], key.i[2] + offset[2]}, key.level};
 }
 
 namespace {
@@ -47,14 +46,15 @@ bool before(const Patch& a, const Patch& b) {
 
 }  // namespace
 
-BlockKey block_of(const GridGeometry& geometry, const double* position) {
-  BlockKey key;
-  for (int a = 0; a < geometry.dimension; ++a) {
-    const int base = static_cast<int>(Support::base(geometry.storage(position[a], a)));
-    const int edge = block_edge(geometry.dimension);
-    key.i[static_cast<std::size_t>(a)] = base >= 0 ? base / edge : -((edge - 1 - base) / edge);
+std::optional<BlockKey> master_block(const BlockKey& key, int corner, int dimension) {
+  BlockKey out = parent_of(key, dimension);
+  for (int a = 0; a < dimension; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (corner_offset(corner, a) == 0) continue;
+    if (key.i[k] % 2 == 0) return {};
+    out.i[k] += 1;
   }
-  return key;
+  return out;
 }
 
 int BlockGrid::find_patch(const BlockKey& key, int body) const {
@@ -65,21 +65,24 @@ int BlockGrid::find_node_block(const BlockKey& key, FieldId field) const {
   return node_index_.find(key, tag(field));
 }
 
-std::pair<BlockKey, int> BlockGrid::place_of_node(const std::array<int, 3>& storage_index) const {
-  const int edge = block_edge(geometry_.dimension);
+std::pair<BlockKey, int> BlockGrid::place_of_node(const std::array<int, 3>& storage_index,
+                                                  int level) const {
+  const int dimension = geometry().dimension, edge = block_edge(dimension);
   BlockKey key;
+  key.level = level;
   int local = 0;
-  for (int a = 0; a < geometry_.dimension; ++a) {
+  for (int a = 0; a < dimension; ++a) {
     const int i = storage_index[static_cast<std::size_t>(a)];
-    const int block = i >= 0 ? i / edge : -((edge - 1 - i) / edge);
+    const int block = floor_div(i, edge);
     key.i[static_cast<std::size_t>(a)] = block;
     local = local * edge + (i - block * edge);
   }
   return {key, local};
 }
 
-double* BlockGrid::find_node(const std::array<int, 3>& storage_index, FieldId field) const {
-  const auto [key, local] = place_of_node(storage_index);
+double* BlockGrid::find_node(const std::array<int, 3>& storage_index, FieldId field,
+                             int level) const {
+  const auto [key, local] = place_of_node(storage_index, level);
   const int n = find_node_block(key, field);
   return n < 0 ? nullptr : node_blocks_[static_cast<std::size_t>(n)].nodes + kNodeDoubles * local;
 }
@@ -109,18 +112,31 @@ void BlockGrid::rebuild(bool drop_empty) {
 }
 
 void BlockGrid::make_node_blocks() {
-  const int dimension = geometry_.dimension, corners = corner_count(dimension);
+  const int dimension = geometry().dimension, corners = corner_count(dimension);
   node_blocks_.clear();
   node_index_.clear(patches_.size() * static_cast<std::size_t>(corners));
+  const auto add = [this](const BlockKey& key, FieldId field) {
+    if (node_index_.find(key, tag(field)) >= 0) return false;
+    node_index_.insert(key, tag(field), static_cast<int>(node_blocks_.size()));
+    NodeBlock& block = node_blocks_.emplace_back();
+    block.key = key;
+    block.field = field;
+    return true;
+  };
   for (const Patch& patch : patches_)
-    for (int c = 0; c < corners; ++c) {
-      const BlockKey key = at_corner(patch.key, c, 1, dimension);
-      if (node_index_.find(key, tag(patch.field)) >= 0) continue;
-      node_index_.insert(key, tag(patch.field), static_cast<int>(node_blocks_.size()));
-      NodeBlock& block = node_blocks_.emplace_back();
-      block.key = key;
-      block.field = patch.field;
+    for (int c = 0; c < corners; ++c) add(at_corner(patch.key, c, 1, dimension), patch.field);
+  if (!levels_.single()) {
+    // what points see, and where it follows from nodes of the level above, these
+    const std::size_t seen = node_blocks_.size();
+    node_index_.grow(seen * static_cast<std::size_t>(1 + corners));
+    for (std::size_t n = 0; n < seen; ++n) {
+      node_blocks_[n].tied = levels_.tied_nodes(node_blocks_[n].key);
+      if (node_blocks_[n].tied == 0) continue;
+      const NodeBlock block = node_blocks_[n];
+      for (int c = 0; c < corners; ++c)
+        if (const auto key = master_block(block.key, c, dimension)) add(*key, block.field);
     }
+  }
   std::sort(node_blocks_.begin(), node_blocks_.end(), [](const NodeBlock& a, const NodeBlock& b) {
     return a.key != b.key ? a.key < b.key : a.field < b.field;
   });
@@ -135,7 +151,7 @@ void BlockGrid::make_node_blocks() {
 
 // The tiles of a node block stand in the order of their patches_; that order fixes its sums.
 void BlockGrid::link_patches() {
-  const int dimension = geometry_.dimension, corners = corner_count(dimension);
+  const int dimension = geometry().dimension, corners = corner_count(dimension);
   patch_index_.clear(patches_.size());
   for (std::size_t p = 0; p < patches_.size(); ++p)
     patch_index_.insert(patches_[p].key, patches_[p].body, static_cast<int>(p));

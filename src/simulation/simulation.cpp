@@ -304,7 +304,7 @@ void Simulation::step(double until) {
   } catch (const StepFault& fault) {
     broken_ = true;
     const std::string text = describe_fault(first_points() + fault.patch, fault.fault);
-    deliver(grid_, kernel_data_);  // points under way between blocks belong to the last frame too
+    step_->deliver_leavers();  // points under way between blocks belong to the last frame too
     throw NumericalError(text);
   } catch (const ElementFault& fault) {
     broken_ = true;
@@ -316,7 +316,7 @@ void Simulation::step(double until) {
     fail_energy(e);
   } catch (const NumericalError& e) {
     broken_ = true;
-    deliver(grid_, kernel_data_);
+    step_->deliver_leavers();
     throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time(), steps()));
   }
   audit_.book_body_force(body_force, taken);

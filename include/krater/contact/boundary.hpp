@@ -26,8 +26,15 @@
 /// travels with it from its side inwards. v- stays as scattered. The work of a side is
 /// J.v_plane; what a column loses beyond it is heat of its three nodes (contact/impulse_heat.hpp).
 ///
+/// On a level of the grid whose planes are knots (grid/geometry.hpp) no node lies on a plane: the
+/// column is a pair, ghost and inner node, with c = {-1, 1} held as above, and material touches while
+///   V_ghost + V_inner > 5/6 V_next     (V_next: of the node beyond the inner one),
+/// which closes gaps below 0.16 cells, as 1/4 does at a node (0.19). A plane that travels is
+/// anywhere between nodes on every level.
+///
 /// open: nothing; points that leave are removed and accounted.
 #include <array>
+#include <span>
 #include <vector>
 
 #include "krater/contact/impulse_heat.hpp"
@@ -70,8 +77,9 @@ class BoundarySet {
   /// Points that have moved for `dt` are judged by the planes at the end of the step.
   void set_step(double dt) { step_ = dt; }
   double step() const { return step_; }
-  /// Where the plane is at the end of the step: as a storage coordinate, and whether x is beyond.
-  double last_storage(int axis, int side) const;
+  /// Where the plane is at the end of the step: as a knot coordinate of a level, and whether x is
+  /// beyond.
+  double last_knots(int axis, int side, int level = 0) const;
   /// Distance that a point keeps from a lower plane of symmetry [cells]: on the axis itself
   /// sigma_tt/r and v_r/r would not be numbers.
   static constexpr double kClearance = 1e-9;
@@ -80,8 +88,8 @@ class BoundarySet {
   /// Fixed reference: nodes hold [m, sum S m x, ..]: how far the material of each wall column is
   /// from the wall.
   void note_gaps();
-  /// Fold sums [m, p, f, V]; before the momentum update.
-  void fold();
+  /// Fold sums [m, p, f, V] of a level; before the momentum update.
+  void fold(int level = 0);
   /// Planes that push: change v+ and dv of [v+, m, dv, V]; after the momentum update.
   BoundaryWork constrain();
   /// What they took becomes heat of the nodes, which hold k; returns it [J]. After mirror(), when
@@ -89,8 +97,19 @@ class BoundarySet {
   double heat();
   /// Ghosts get the k of what they mirror: heat() does it, and whoever gives nodes heat after it.
   void mirror_work() const;
-  /// Give ghosts the mirrored values the gather reads.
-  void mirror() const;
+  /// Give ghosts of a level the mirrored values the gather reads.
+  void mirror(int level = 0) const;
+  /// call(ghost, plane, inner, odd) for each column of planes that fold; plane: nullptr on levels
+  /// without nodes there; odd: bit per component that changes its sign.
+  template <class Call>
+  void for_each_fold(int level, const Call& call) const {
+    for (const Plane& plane : planes_) {
+      if (plane.geometry.level != level || !plane.condition->folds()) continue;
+      unsigned odd = 0;
+      for (int a = 0; a < 3; ++a) odd |= plane.odd(a) ? 1U << a : 0U;
+      for (const Column& c : plane.columns) call(c.ghost, c.plane, c.inner, odd);
+    }
+  }
   /// Call call(ghost, inner node) for each column of the planes that are not open.
   template <class Call>
   void for_each_mirror(const Call& call) const {
@@ -115,21 +134,27 @@ class BoundarySet {
     std::array<double, 3> ghost_momentum{}, ghost_force{}, plane_momentum{}, plane_force{};
   };
   struct Column {
-    double *ghost, *plane, *inner;
+    double *ghost, *plane, *inner;  ///< plane: nullptr where it is a knot ...
+    const double* next;             ///< ... and there the node beyond the inner one, if any
     FieldId field;
     bool moves_points;                ///< the field is not that of a rigid body
     std::array<std::size_t, 3> held;  ///< of a plane that pushes: its nodes in held_
+    std::size_t held_count;
     double gap;  ///< fixed reference: distance of the plane's material from the wall [m]
     Folded folded;
-    std::array<const double*, 4> beside;  ///< nodes of the plane that lie next to its own ...
+    std::array<const double*, 4> beside;  ///< like nodes of the columns next to it ...
     std::array<int, 4> columns_beside;    ///< ... and their columns, -1: none
     std::array<double, 2> fill;  ///< volume at the plane and beside it, smoothed along the plane
+    double* anchor() const { return plane != nullptr ? plane : inner; }
+    std::span<const std::size_t> held_nodes() const { return {held.data(), held_count}; }
   };
   struct Plane {
     int axis, side;
     double inward;  ///< +1 lower, -1 upper
     const Boundary* condition;
-    int line = 0;       ///< storage index of the plane's node line
+    GridGeometry geometry;  ///< of its level
+    bool on_knot = false;
+    int line = 0;       ///< storage index of the plane's node line; on a knot of the inner nodes
     double beyond = 0;  ///< delta: how far that line lies outside the plane [cells]
     std::vector<Column> columns;
     bool odd(int component) const {
@@ -145,6 +170,8 @@ class BoundarySet {
   };
   void place(Plane& plane) const;
   void add_columns(BlockGrid& grid, Plane& plane) const;
+  void add_column(BlockGrid& grid, Plane& plane, NodeBlock& block,
+                  const std::array<int, 3>& index) const;
   static void link_columns(Plane& plane);
   void list_held_nodes();
   void keep_folded(const Column& column);

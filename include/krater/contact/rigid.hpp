@@ -137,7 +137,7 @@ class RigidBodies {
   void finish(const BlockGrid& grid, double dt);
   /// Positions and velocities of the points of one patch from the body's motion; sums, time-step
   /// limit, leavers. In parallel over patches, after finish().
-  void move(std::size_t p, Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+  void move(std::size_t p, Patch& patch, const Levels& levels, const BoundarySet& boundary,
             const PointColumns& columns, unsigned char* leavers);
   /// Throws NumericalError when a body has run into a closed side.
   void throw_collisions(const BlockGrid& grid) const;

@@ -11,46 +11,25 @@
 /// one field stick together, fields know nothing of each other until contact or, with a fixed
 /// reference configuration, for ever.
 ///
-/// Nodes are counted from the lower domain plane, shifted by one: the plane is storage index 1, the
-/// ghost beyond it 0.
+/// Blocks of several levels stand side by side (grid/levels.hpp); those of one level know nothing of
+/// the others' nodes but through the tied ones (kinematics/mpm/ties.hpp). How nodes are counted:
+/// grid/geometry.hpp.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "krater/core/aligned.hpp"
 #include "krater/core/batch_types.hpp"
+#include "krater/grid/geometry.hpp"
 #include "krater/grid/key_index.hpp"
+#include "krater/grid/levels.hpp"
 #include "krater/grid/node_record.hpp"
-#include "krater/grid/support.hpp"
 #include "krater/points/store.hpp"
 
 namespace krater {
-
-inline constexpr int kBlockNodes = 64;  ///< nodes (and cells) of a block: 4^3 or 8^2
-constexpr int block_edge(int dimension) { return dimension == 3 ? 4 : 8; }
-constexpr int tile_edge(int dimension) { return block_edge(dimension) + Support::support - 1; }
-constexpr int tile_nodes(int dimension) {
-  const int edge = tile_edge(dimension);
-  return dimension == 3 ? edge * edge * edge : edge * edge;
-}
-constexpr int corner_count(int dimension) { return dimension == 3 ? 8 : 4; }      ///< 2^dim
-constexpr int neighbour_count(int dimension) { return dimension == 3 ? 27 : 9; }  ///< 3^dim
-
-struct GridGeometry {
-  int dimension = 3;
-  double h = 1, inv_h = 1;
-  std::array<double, 3> min{};  ///< lower domain planes [m]
-  std::array<int, 3> cells{};   ///< number of cells; upper planes at storage index cells + 1
-  /// Storage coordinate: 1 on the lower plane. The same expression decides weights and ownership.
-  double storage(double x, int axis) const {
-    return (x - min[static_cast<std::size_t>(axis)]) * inv_h + 1;
-  }
-  double upper(int axis) const {
-    return min[static_cast<std::size_t>(axis)] + h * cells[static_cast<std::size_t>(axis)];
-  }
-};
 
 /// A velocity field of the grid. It is no body: a type of its own keeps one index from being taken
 /// for the other, which are the same number only where every body has a field of its own.
@@ -59,15 +38,16 @@ enum class FieldId : int {};
 constexpr int body_of(FieldId field) { return static_cast<int>(field); }
 constexpr FieldId own_field(int body) { return static_cast<FieldId>(body); }
 
-/// The block that owns a position of `dimension` coordinates.
-BlockKey block_of(const GridGeometry& geometry, const double* position);
-
 /// Points that leave a patch: whole records, point by point, with the neighbour they go to.
 struct Outbox {
   std::vector<double> records;
   std::vector<std::uint8_t> slots;  ///< neighbour 0..26, lexicographic in (-1, 0, 1) per axis
   std::uint32_t used = 0;           ///< bit per slot
+  std::vector<double> other_level;  ///< whole records of points for blocks of another level ...
+  std::vector<BlockKey> keys;       ///< ... and these blocks
   void clear() {
+    other_level.clear();
+    keys.clear();
     records.clear();
     slots.clear();
     used = 0;
@@ -153,6 +133,8 @@ struct NodeBlock {
   BlockKey key;
   FieldId field{};
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
+  std::uint64_t tied = 0;         ///< nodes that follow from those of the level above, a bit each
+  bool at_tie = false;            ///< holds such nodes, or some that they follow from
   bool at_boundary = false;
   bool at_wall = false;  ///< holds columns of a unilateral wall
   bool still = false;    ///< every v+ and dv of the block is exactly zero
@@ -167,9 +149,12 @@ inline bool keeps_volumes(const NodeBlock& block) { return block.still && !block
 
 class BlockGrid {
  public:
-  explicit BlockGrid(const GridGeometry& geometry) : geometry_{geometry} {}
+  explicit BlockGrid(const GridGeometry& geometry) : levels_{geometry} {}
 
-  const GridGeometry& geometry() const { return geometry_; }
+  const GridGeometry& geometry(int level = 0) const { return levels_.geometry(level); }
+  const Levels& levels() const { return levels_; }
+  /// Points must be sorted anew when it changes; true: it does.
+  bool set_levels(BlockSet refined) { return levels_.set(std::move(refined)); }
   /// Sorted by (key, body) after rebuild().
   std::span<Patch> patches() { return patches_; }
   KRATER_FORCE_INLINE const std::vector<Patch>& patches() const { return patches_; }
@@ -190,9 +175,10 @@ class BlockGrid {
   int find_patch(const BlockKey& key, int body) const;            ///< -1: none
   int find_node_block(const BlockKey& key, FieldId field) const;  ///< -1: none
   /// The block of a node, and which it is there.
-  std::pair<BlockKey, int> place_of_node(const std::array<int, 3>& storage_index) const;
+  std::pair<BlockKey, int> place_of_node(const std::array<int, 3>& storage_index,
+                                         int level = 0) const;
   /// nullptr: not stored
-  double* find_node(const std::array<int, 3>& storage_index, FieldId field) const;
+  double* find_node(const std::array<int, 3>& storage_index, FieldId field, int level = 0) const;
   /// Sort patches, drop empty ones if asked, lay out node blocks and all links.
   void rebuild(bool drop_empty);
 
@@ -200,7 +186,7 @@ class BlockGrid {
   void make_node_blocks();
   void link_patches();
 
-  GridGeometry geometry_;
+  Levels levels_;
   std::vector<Patch> patches_;
   std::vector<NodeBlock> node_blocks_;
   std::vector<TileRef> tile_refs_;
@@ -217,5 +203,8 @@ constexpr int slot_offset(int slot, int axis, int dimension) {
 }
 constexpr int corner_offset(int corner, int axis) { return (corner >> axis) & 1; }
 BlockKey shifted(const BlockKey& key, int slot, int dimension);
+/// One of the blocks that hold what the tied nodes of block `key` follow from: 2^dim where its
+/// indices are odd, fewer where some are even. None: of that corner there is none.
+std::optional<BlockKey> master_block(const BlockKey& key, int corner, int dimension);
 
 }  // namespace krater

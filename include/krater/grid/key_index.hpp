@@ -11,17 +11,30 @@
 
 namespace krater {
 
+/// A block of nodes and cells: where it lies among those of its level (grid/levels.hpp).
 struct BlockKey {
   std::array<std::int32_t, 3> i{};
+  std::int32_t level = 0;
   friend constexpr bool operator==(const BlockKey& a, const BlockKey& b) {
-    return a.i[0] == b.i[0] && a.i[1] == b.i[1] && a.i[2] == b.i[2];
+    return a.i[0] == b.i[0] && a.i[1] == b.i[1] && a.i[2] == b.i[2] && a.level == b.level;
   }
   friend constexpr std::strong_ordering operator<=>(const BlockKey& a, const BlockKey& b) {
+    if (a.level != b.level) return a.level <=> b.level;
     for (std::size_t k = 0; k < 2; ++k)
       if (a.i[k] != b.i[k]) return a.i[k] <=> b.i[k];
     return a.i[2] <=> b.i[2];
   }
 };
+
+inline std::size_t hash_of(const BlockKey& key, int tag) {
+  std::uint64_t hash =
+      static_cast<std::uint32_t>(tag) ^ (static_cast<std::uint64_t>(key.level) << 32U);
+  for (const std::int32_t i : key.i) {
+    hash = (hash ^ static_cast<std::uint32_t>(i)) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 29;
+  }
+  return static_cast<std::size_t>(hash);
+}
 
 class KeyIndex {
  public:
@@ -30,6 +43,14 @@ class KeyIndex {
     std::size_t size = 16;
     while (size < 2 * count) size *= 2;
     slots_.assign(size, Slot{{}, 0, -1});
+  }
+  /// Room for `count` entries, the old ones kept.
+  void grow(std::size_t count) {
+    std::vector<Slot> old;
+    old.swap(slots_);
+    clear(count);
+    for (const Slot& slot : old)
+      if (slot.index >= 0) insert(slot.key, slot.tag, slot.index);
   }
   void insert(const BlockKey& key, int tag, int index) {
     std::size_t at = start(key, tag);
@@ -51,12 +72,7 @@ class KeyIndex {
     int tag, index;
   };
   std::size_t start(const BlockKey& key, int tag) const {
-    std::uint64_t hash = static_cast<std::uint32_t>(tag);
-    for (const std::int32_t i : key.i) {
-      hash = (hash ^ static_cast<std::uint32_t>(i)) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 29;
-    }
-    return static_cast<std::size_t>(hash) & (slots_.size() - 1);
+    return hash_of(key, tag) & (slots_.size() - 1);
   }
   std::vector<Slot> slots_;
 };

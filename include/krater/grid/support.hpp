@@ -14,11 +14,12 @@ struct ThreeNodes {
   /// D/h^2: sum S d^2 of the quadratic B-spline; for the others a definition, used alike on both
   /// sides of every balance.
   static constexpr double moment = 0.25;
-  /// Storage index of the first node from the storage coordinate; the cell that averages.
+  /// Storage index of the first node from the knot coordinate (GridGeometry::knots): the span
+  /// between knots, which is the cell that averages.
   template <class Real>
-  static Real base(Real s) {
+  static Real base(Real t) {
     using std::floor;
-    return floor(s - 0.5);
+    return floor(t);
   }
 };
 

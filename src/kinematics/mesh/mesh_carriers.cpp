@@ -130,7 +130,7 @@ void MeshContact::sample(const MeshNodes& nodes, std::size_t body, const Face& f
       }
       for (int a = 0; a < dim_; ++a) {
         const auto k = static_cast<std::size_t>(a);
-        const double u = geometry_.storage(q.x[k], a), base = std::floor(u - 0.5), f = u - base;
+        const double u = geometry_.knots(q.x[k], a), base = Support::base(u), f = u - base + 0.5;
         q.base[k] = static_cast<int>(base);
         q.weight[k] = {0.5 * (1.5 - f) * (1.5 - f), 0.75 - (f - 1) * (f - 1),
                        0.5 * (f - 0.5) * (f - 0.5)};

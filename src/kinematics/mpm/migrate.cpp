@@ -108,11 +108,15 @@ bool keep_inside(Patch& patch, const GridGeometry& geometry, const BoundarySet& 
   return true;
 }
 
-BlockKey block_of_point(Patch& patch, const GridGeometry& geometry, const PointColumns& c, int i) {
+/// Of the level of the patch, or of the point's own place.
+struct Places {
+  BlockKey here, owner;
+};
+Places places_of_point(const Patch& patch, const Levels& levels, const PointColumns& c, int i) {
   double position[3];
-  for (int a = 0; a < geometry.dimension; ++a)
+  for (int a = 0; a < levels.geometry().dimension; ++a)
     position[a] = patch.points.at(c.position + kLanes * a, i);
-  return block_of(geometry, position);
+  return {block_of(levels.geometry(patch.key.level), position), levels.block_at(position)};
 }
 
 /// Lanes of a group that failure takes out, among the points of the patch.
@@ -124,37 +128,59 @@ unsigned failed_lanes(const Patch& patch, const PointColumns& c, int g) {
   return lanes;
 }
 
-enum class Fate { stays, goes, removed };
+enum class Fate { stays, goes, changes_level, removed };
+
+/// What is to be done with a point, and where it goes.
+struct Judgement {
+  Fate fate = Fate::stays;
+  int slot = 0;
+  BlockKey key;
+};
 
 /// Puts a point back inside closed sides, then says where it belongs.
-Fate judge(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
-           const PointColumns& c, int i, int& slot, Removed& removed) {
-  slot = 0;
-  if (!keep_inside(patch, geometry, boundary, c, i, removed)) return Fate::removed;
-  const BlockKey key = block_of_point(patch, geometry, c, i);
+Judgement judge(Patch& patch, const Levels& levels, const BoundarySet& boundary,
+                const PointColumns& c, int i, Removed& removed) {
+  const GridGeometry& geometry = levels.geometry(patch.key.level);
+  Judgement out;
+  if (!keep_inside(patch, geometry, boundary, c, i, removed)) {
+    out.fate = Fate::removed;
+    return out;
+  }
+  const Places at = places_of_point(patch, levels, c, i);
+  out.key = at.owner;
   bool here = true;
   for (int a = 0; a < geometry.dimension; ++a) {
-    const int offset = key.i[static_cast<unsigned>(a)] - patch.key.i[static_cast<unsigned>(a)];
+    const auto k = static_cast<unsigned>(a);
+    const int offset = at.here.i[k] - patch.key.i[k];
     if (offset < -1 || offset > 1) {
       if (patch.result.fault.kind == FaultKind::none)
         patch.result.fault = {FaultKind::moved_too_far, i / kLanes, 1U << (i % kLanes)};
-      return Fate::stays;
+      return {};
     }
     here = here && offset == 0;
-    slot = 3 * slot + offset + 1;
+    out.slot = 3 * out.slot + offset + 1;
   }
-  return here ? Fate::stays : Fate::goes;
+  if (at.owner.level != patch.key.level)
+    out.fate = Fate::changes_level;
+  else if (!here)
+    out.fate = Fate::goes;
+  return out;
 }
 
-void post(Patch& patch, int slot, int i) {
+void post(Patch& patch, const Judgement& to, int i) {
+  if (to.fate == Fate::changes_level) {
+    patch.points.copy_out(i, patch.outbox.other_level);
+    patch.outbox.keys.push_back(to.key);
+    return;
+  }
   patch.points.copy_out(i, patch.outbox.records);
-  patch.outbox.slots.push_back(static_cast<std::uint8_t>(slot));
-  patch.outbox.used |= 1U << slot;
+  patch.outbox.slots.push_back(static_cast<std::uint8_t>(to.slot));
+  patch.outbox.used |= 1U << to.slot;
 }
 
 }  // namespace
 
-Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+Removed collect_leavers(Patch& patch, const Levels& levels, const BoundarySet& boundary,
                         const PointColumns& columns, const unsigned char* leavers) {
   Removed removed;
   patch.outbox.clear();
@@ -166,15 +192,15 @@ Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const Bounda
       if (((all >> l) & 1U) == 0) continue;
       const int i = kLanes * g + l;
       const bool is_failed = ((failed >> l) & 1U) != 0;
-      int slot = 0;
-      const Fate fate =
-          is_failed ? Fate::removed : judge(patch, geometry, boundary, columns, i, slot, removed);
+      Judgement to;
+      to.fate = Fate::removed;
+      if (!is_failed) to = judge(patch, levels, boundary, columns, i, removed);
       if (is_failed) removed.failed += 1;
-      if (fate == Fate::stays) continue;
-      if (fate == Fate::goes)
-        post(patch, slot, i);
+      if (to.fate == Fate::stays) continue;
+      if (to.fate != Fate::removed)
+        post(patch, to, i);
       else
-        tally(patch, columns, geometry, i, removed);
+        tally(patch, columns, levels.geometry(patch.key.level), i, removed);
       holes.push_back(i);
     }
   }
@@ -204,23 +230,48 @@ bool drop_empty(BlockGrid& grid) {
   return emptied;
 }
 
-bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
-  const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
-  std::set<std::pair<BlockKey, int>> missing;
-  for (const Patch& patch : grid.patches())
-    for (int s = 0; s < slots; ++s)
-      if (((patch.outbox.used >> s) & 1U) != 0 &&
-          patch.links.neighbours[static_cast<unsigned>(s)] < 0)
-        missing.insert({shifted(patch.key, s, dimension), patch.body});
-  for (const auto& [key, body] : missing) {
-    grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride);
-  }
-  if (!missing.empty()) grid.rebuild(false);
-  const auto& all = grid.patches();
-  if (std::all_of(all.begin(), all.end(),
-                  [](const Patch& p) { return p.steady && p.outbox.used == 0; }))
-    return drop_empty(grid);
+namespace {
 
+/// Points that changed their level, in the order of their patches; whole or in parts.
+std::vector<Arrival> find_arrivals(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                                   std::vector<PointSize>& sizes, Delivered& out) {
+  std::vector<Arrival> arrivals;
+  for (Patch& patch : grid.patches()) {
+    Outbox& box = patch.outbox;
+    const PointColumns& columns = bodies[static_cast<std::size_t>(patch.body)].columns;
+    const auto width = static_cast<std::ptrdiff_t>(columns.stride / kLanes);
+    for (std::size_t k = 0; k < box.keys.size(); ++k) {
+      const auto from = box.other_level.begin() + static_cast<std::ptrdiff_t>(k) * width;
+      const std::size_t before = arrivals.size();
+      out.kinetic +=
+          arrive(grid.levels(), columns, sizes[static_cast<std::size_t>(patch.body)],
+                 patch.key.level, {box.keys[k], patch.body, {from, from + width}}, arrivals);
+      out.made += static_cast<double>(arrivals.size() - before - 1);
+      const int finer = box.keys[k].level - patch.key.level;
+      out.finer_rate = std::max(out.finer_rate, std::ldexp(patch.result.max_rate, finer));
+    }
+    box.keys.clear();
+    box.other_level.clear();
+  }
+  return arrivals;
+}
+
+void take_arrivals(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                   const std::vector<Arrival>& arrivals) {
+  std::set<int> touched;
+  for (const Arrival& a : arrivals) {
+    const int p = grid.find_patch(a.key, a.body);
+    grid.patches()[static_cast<std::size_t>(p)].append(a.record.data());
+    touched.insert(p);
+  }
+  for (const int p : touched) {
+    Patch& patch = grid.patches()[static_cast<std::size_t>(p)];
+    patch.points.pad(bodies[static_cast<std::size_t>(patch.body)].columns.mass);
+  }
+}
+
+void take_from_neighbours(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
+  const int slots = neighbour_count(grid.geometry().dimension);
   for_each(grid.patches().size(), [&](std::size_t p) {
     Patch& patch = grid.patches()[p];
     const BodyKernelData& body = bodies[static_cast<unsigned>(patch.body)];
@@ -237,22 +288,55 @@ bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
     }
     if (patch.points.count() > 0) patch.points.pad(body.columns.mass);
   });
+}
+
+}  // namespace
+
+Delivered deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                  std::vector<PointSize>& sizes) {
+  const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
+  Delivered out;
+  std::vector<Arrival> arrivals;
+  if (!grid.levels().single()) arrivals = find_arrivals(grid, bodies, sizes, out);
+  std::set<std::pair<BlockKey, int>> missing;
+  for (const Patch& patch : grid.patches())
+    for (int s = 0; s < slots; ++s)
+      if (((patch.outbox.used >> s) & 1U) != 0 &&
+          patch.links.neighbours[static_cast<unsigned>(s)] < 0)
+        missing.insert({shifted(patch.key, s, dimension), patch.body});
+  for (const Arrival& a : arrivals)
+    if (grid.find_patch(a.key, a.body) < 0) missing.insert({a.key, a.body});
+  for (const auto& [key, body] : missing) {
+    grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride);
+  }
+  if (!missing.empty()) grid.rebuild(false);
+  const auto& all = grid.patches();
+  if (arrivals.empty() && std::all_of(all.begin(), all.end(), [](const Patch& p) {
+        return p.steady && p.outbox.used == 0;
+      })) {
+    out.changed = drop_empty(grid);
+    return out;
+  }
+  take_from_neighbours(grid, bodies);
+  take_arrivals(grid, bodies, arrivals);
   for (Patch& patch : grid.patches()) patch.outbox.clear();
-  return drop_empty(grid) || !missing.empty();
+  out.changed = drop_empty(grid) || !missing.empty();
+  return out;
 }
 
 namespace {
 
 using RecordsByBlock = std::map<BlockKey, std::vector<double>>;
 
-void sort_by_blocks(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+void sort_by_blocks(Patch& patch, const Levels& levels, const BoundarySet& boundary,
                     const PointColumns& c, RecordsByBlock& sorted, Removed& removed) {
+  const GridGeometry& geometry = levels.geometry(patch.key.level);
   for (int i = 0; i < patch.points.count(); ++i) {
     if (!keep_inside(patch, geometry, boundary, c, i, removed)) {
       tally(patch, c, geometry, i, removed);
       continue;
     }
-    std::vector<double>& records = sorted[block_of_point(patch, geometry, c, i)];
+    std::vector<double>& records = sorted[places_of_point(patch, levels, c, i).owner];
     patch.points.copy_out(i, records);
   }
 }
@@ -268,7 +352,7 @@ Removed adopt(BlockGrid& grid, int body, const std::vector<double>& records,
   for (std::size_t k = 0; k < records.size(); k += width) arriving.append(records.data() + k);
   Removed removed;
   RecordsByBlock sorted;
-  sort_by_blocks(arriving, grid.geometry(), boundary, c, sorted, removed);
+  sort_by_blocks(arriving, grid.levels(), boundary, c, sorted, removed);
   std::vector<BlockKey> missing;
   for (const auto& [key, unused] : sorted)
     if (grid.find_patch(key, body) < 0) missing.push_back(key);
@@ -287,7 +371,7 @@ Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
   Removed removed;
   RecordsByBlock moved;
   for (Patch& patch : grid.patches())
-    if (patch.body == body) sort_by_blocks(patch, grid.geometry(), boundary, c, moved, removed);
+    if (patch.body == body) sort_by_blocks(patch, grid.levels(), boundary, c, moved, removed);
   grid.drop_patches(body);
   const auto width = static_cast<std::size_t>(c.stride / kLanes);
   for (const auto& [key, records] : moved) {

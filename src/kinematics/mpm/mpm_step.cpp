@@ -40,6 +40,7 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
       boundary_{parts.boundary},
       contact_{parts.contact},
       rigid_{parts.rigid},
+      ties_{parts.grid, parts.boundary},
       kernels_{parts.kernels},
       plain_{parts.plain},
       bodies_{parts.bodies},
@@ -64,7 +65,6 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
     body.columns.affine = body.columns.map;
   }
   zeros_.reserve(9 * kLanes);
-  node_settings_.cell_volume = std::pow(grid_.geometry().h, grid_.geometry().dimension);
 }
 
 PointStore& MpmStep::change(int s) {
@@ -128,7 +128,10 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
   if (contact_.active()) out.contact = meet_bodies(projection);
   lap(Phase::contact);
   out.walls = boundary_.constrain();
-  boundary_.mirror();
+  for (int level = 0; level < grid_.levels().count(); ++level) {
+    if (level > 0) ties_.prolong(level);
+    boundary_.mirror(level);
+  }
   lap(Phase::boundary);
   return out;
 }
@@ -143,17 +146,23 @@ void MpmStep::account_folds(double dt) {
   for (std::size_t a = 0; a < 3; ++a) constraints_.walls.impulse[a] += folds.impulse[a];
 }
 
-CutCells MpmStep::cut_cells(int axis, int side) const {
+CutCells MpmStep::cut_cells(int axis, int side, const GridGeometry& geometry) const {
+  if (geometry.planes_on_knots()) return {};  // between two cells
   const auto a = static_cast<unsigned>(axis);
   const Boundary& plane = boundary_.conditions()[a][static_cast<unsigned>(side)];
   if (!plane.folds()) return {};
-  return {side == 0 ? 0 : grid_.geometry().cells[a],
-          plane.kind == BoundaryKind::sticky ? 7U : 1U << axis};
+  return {side == 0 ? 0 : geometry.cells[a], plane.kind == BoundaryKind::sticky ? 7U : 1U << axis};
 }
 
-SweepSettings MpmStep::settings(double dt) const {
+std::vector<SweepSettings> MpmStep::all_settings(double dt) const {
+  std::vector<SweepSettings> out;
+  for (int level = 0; level < grid_.levels().count(); ++level) out.push_back(settings(dt, level));
+  return out;
+}
+
+SweepSettings MpmStep::settings(double dt, int level) const {
   SweepSettings s;
-  s.geometry = &grid_.geometry();
+  s.geometry = &grid_.geometry(level);
   s.dt = dt;
   s.alpha = alpha_of(method_, method_.flip_fraction);
   s.gamma = cell_alpha_of(method_) - std::min(cell_alpha_of(method_), s.alpha);
@@ -162,10 +171,11 @@ SweepSettings MpmStep::settings(double dt) const {
   s.energy_alpha = method_.energy_alpha;
   s.pressure_nodes = pressure_nodes_.data();
   for (int a = 0; a < grid_.geometry().dimension; ++a) {
-    s.first[static_cast<unsigned>(a)] = boundary_.last_storage(a, 0);
-    s.last[static_cast<unsigned>(a)] = boundary_.last_storage(a, 1);
+    s.first[static_cast<unsigned>(a)] = boundary_.last_knots(a, 0, level);
+    s.last[static_cast<unsigned>(a)] = boundary_.last_knots(a, 1, level);
     for (const int side : {0, 1})
-      s.cut[static_cast<unsigned>(a)][static_cast<unsigned>(side)] = cut_cells(a, side);
+      s.cut[static_cast<unsigned>(a)][static_cast<unsigned>(side)] =
+          cut_cells(a, side, *s.geometry);
   }
   return s;
 }
@@ -179,9 +189,10 @@ SweepScratch MpmStep::scratch() {
 void MpmStep::relink() {
   boundary_.relink(grid_);
   if (!reference_contact_) contact_.relink(grid_);
-  boundary_blocks_.clear();
+  ties_.relink();
+  waiting_blocks_.clear();
   for (std::size_t n = 0; n < grid_.node_blocks().size(); ++n)
-    if (grid_.node_blocks()[n].at_boundary) boundary_blocks_.push_back(n);
+    if (waits(grid_.node_blocks()[n])) waiting_blocks_.push_back(n);
   relink_fluids();
   provide_memory();
 }
@@ -207,7 +218,7 @@ void MpmStep::provide_memory() {
 
 void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKernelData>& bodies,
                                 double dt) {
-  const SweepSettings s = settings(dt);
+  const std::vector<SweepSettings> s = all_settings(dt);
   stale_.clear();
   for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
     Patch& patch = grid_.patches()[p];
@@ -216,23 +227,38 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   }
   for_each(stale_.size(), [&](std::size_t i) {
     Patch& patch = grid_.patches()[stale_[i]];
-    kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s, scratch());
+    kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s[level_of(patch)],
+                    scratch());
   });
   lap(Phase::scatter);
   throw_faults();
 }
 
+std::vector<MomentumSettings> MpmStep::momentum_settings(double dt_force) const {
+  std::vector<MomentumSettings> out;
+  for (int level = 0; level < grid_.levels().count(); ++level) {
+    MomentumSettings s = node_settings_;
+    s.dt_force = dt_force;
+    s.cell_volume = std::pow(grid_.geometry(level).h, grid_.geometry().dimension);
+    out.push_back(s);
+  }
+  return out;
+}
+
 double MpmStep::momentum(double& dt, double force_share) {
-  MomentumSettings s = node_settings_;
-  s.dt_force = force_share * dt;
+  const std::vector<MomentumSettings> s = momentum_settings(force_share * dt);
   const bool fluids = !fluid_patches_.empty(), loads = loads_.any() && force_share > 0;
+  const auto update = [&](std::size_t n) {
+    NodeBlock& block = grid_.node_blocks()[n];
+    kernels_.momentum(block, s[static_cast<std::size_t>(block.key.level)]);
+  };
   for_each(
       grid_.node_blocks().size(),
       [&](std::size_t n) {
         NodeBlock& block = grid_.node_blocks()[n];
         if (asleep(block)) return;
         kernels_.sum_tiles(grid_, block);
-        if (!block.at_boundary && !fluids && !loads) kernels_.momentum(block, s);
+        if (!waits(block) && !fluids && !loads) update(n);
       },
       few_blocks());
   if (fluids) {
@@ -244,20 +270,19 @@ double MpmStep::momentum(double& dt, double force_share) {
     for_each(
         grid_.node_blocks().size(),
         [&](std::size_t n) {
-          if (!grid_.node_blocks()[n].at_boundary) kernels_.momentum(grid_.node_blocks()[n], s);
+          if (!waits(grid_.node_blocks()[n])) update(n);
         },
         few_blocks());
   lap(Phase::nodes);
-  boundary_.fold();
+  for (int level = grid_.levels().count() - 1; level >= 0; --level) {
+    boundary_.fold(level);
+    if (level > 0) ties_.restrict(level);
+  }
   for_each(
-      boundary_blocks_.size(),
-      [&](std::size_t i) { kernels_.momentum(grid_.node_blocks()[boundary_blocks_[i]], s); },
-      few_blocks());
-  double max_change = 0;
-  for (const NodeBlock& block : grid_.node_blocks())
-    max_change = std::max(max_change, block.sums.max_change);
-  if (force_share > 0 && max_change * dt > kMaxShare * grid_.geometry().h)
-    halve_until_safe(dt, max_change);
+      waiting_blocks_.size(), [&](std::size_t i) { update(waiting_blocks_[i]); }, few_blocks());
+  ties_.sharpen(s);
+  const double share = safe_share(force_share * dt);
+  if (share < 1) shorten(dt, share);
   lap(Phase::boundary);
   double kinetic = rigid_.kinetic();
   for (const NodeBlock& block : grid_.node_blocks()) {
@@ -267,9 +292,19 @@ double MpmStep::momentum(double& dt, double force_share) {
   return kinetic;
 }
 
-void MpmStep::halve_until_safe(double& dt, double max_change) {
+/// Share of a step that the change of velocity alone may move material through its cells; halved
+/// until it does.
+double MpmStep::safe_share(double dt_force) const {
+  double most = 0;  // in cells of the coarsest level
+  for (const NodeBlock& block : grid_.node_blocks())
+    most = std::max(most, std::ldexp(block.sums.max_change, block.key.level));
   double share = 1;
-  while (share * max_change * share * dt > kMaxShare * grid_.geometry().h) share *= 0.5;
+  while (share * most * share * dt_force > kMaxShare * grid_.geometry().h) share *= 0.5;
+  return share;
+}
+
+void MpmStep::shorten(double& dt, double share) {
+  ties_.shorten(share);
   dt *= share;
   audit_.retries += 1;
   for (NodeBlock& block : grid_.node_blocks()) {
@@ -289,16 +324,17 @@ void MpmStep::halve_until_safe(double& dt, double max_change) {
 
 void MpmStep::grid_to_particles(GatherPart part, double dt) {
   boundary_.set_step(dt);
-  SweepSettings s = settings(dt);
-  s.may_sleep = may_sleep(part);
+  std::vector<SweepSettings> all = all_settings(dt);
+  for (SweepSettings& s : all) s.may_sleep = may_sleep(part);
   const bool ahead = may_scatter_ahead(part);
   const bool moves = part != GatherPart::keep_only && part != GatherPart::velocity_only &&
                      part != GatherPart::strain_only;
   if (moves && rigid_.any()) finish_rigid(dt);
-  if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(s);
+  if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(all.front());
   for_each(grid_.patches().size(), [&](std::size_t p) {
     const SweepScratch w = scratch();
     Patch& patch = grid_.patches()[p];
+    const SweepSettings& s = all[level_of(patch)];
     if (patch.tile.state == Tile::State::ahead) patch.tile.state = Tile::State::stale;
     if (rigid_.any() && rigid_.find(patch.body)) {
       if (moves) move_rigid(p, w);
@@ -309,7 +345,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
         patch.result.fault.kind != FaultKind::none)
       return;
     const int before = patch.points.count();
-    removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_,
+    removed_[p] = collect_leavers(patch, grid_.levels(), boundary_,
                                   bodies_[static_cast<unsigned>(patch.body)].columns, w.leavers);
     const bool steady = patch.steady;
     patch.steady = patch.points.count() == before;
@@ -341,7 +377,12 @@ void MpmStep::migrate() {
   }
   if (impulses_.any()) note_put_back();
   const std::vector<int> losing = rigid_losses();
-  bool changed = deliver(grid_, bodies_);
+  const Delivered delivered = deliver(grid_, bodies_, sizes_);
+  bool changed = delivered.changed;
+  audit_.kinetic += delivered.kinetic;
+  audit_.level_change += delivered.kinetic;
+  audit_.split_points += delivered.made;
+  limit_.rate = std::max(limit_.rate, delivered.finer_rate);
   for (const int b : losing)  // what is left moves on as it did
     rigid_.find(b)->lose(grid_, bodies_[static_cast<std::size_t>(b)].columns);
   if (method_.reference == Reference::adaptive) changed = renew_references() || changed;

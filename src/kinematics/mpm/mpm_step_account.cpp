@@ -27,6 +27,7 @@ void MpmStep::write_node_work() {
   if (contact_.active())
     heat_.contact = reference_contact_ ? reference_contact_->heat() : contact_.heat();
   heat_.walls = boundary_.heat();
+  ties_.finish_work(moments);
   lap(Phase::boundary);
 }
 

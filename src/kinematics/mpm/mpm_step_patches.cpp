@@ -33,7 +33,7 @@ bool MpmStep::may_sleep(GatherPart part) const {
 }
 
 bool MpmStep::asleep(const NodeBlock& block) const {
-  if (!block.inert || block.at_boundary || !fluid_patches_.empty()) return false;
+  if (!block.inert || waits(block) || !fluid_patches_.empty()) return false;
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
     const int p = grid_.tile_refs()[static_cast<std::size_t>(t)].patch;
     const Tile& tile = grid_.patches()[static_cast<std::size_t>(p)].tile;

@@ -23,7 +23,7 @@ void MpmStep::measure_gaps() {
     plain_.scatter(patch, position_as_velocity_[static_cast<unsigned>(patch.body)], s, scratch());
     patch.tile.state = Tile::State::stale;
   });
-  for (const std::size_t n : boundary_blocks_)
+  for (const std::size_t n : waiting_blocks_)
     if (grid_.node_blocks()[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks()[n]);
   boundary_.note_gaps();
   lap(Phase::boundary);

@@ -31,9 +31,9 @@ void MpmStep::move_rigid(std::size_t p, const SweepScratch& w) {
   const bool moves = rigid_.find(patch.body)->moves();
   patch.tile.state = moves ? Tile::State::stale : Tile::State::asleep;
   if (!moves) return;
-  rigid_.move(p, patch, grid_.geometry(), boundary_, columns, w.leavers);
+  rigid_.move(p, patch, grid_.levels(), boundary_, columns, w.leavers);
   name_limit(patch);
-  removed_[p] = collect_leavers(patch, grid_.geometry(), boundary_, columns, w.leavers);
+  removed_[p] = collect_leavers(patch, grid_.levels(), boundary_, columns, w.leavers);
 }
 
 // Bodies that leave through an open side; before the patches are sorted anew.

@@ -174,8 +174,8 @@ ReferenceContact::Reach ReferenceContact::reach(const PointStore& points, int po
   const GridGeometry& g = grid_.geometry();
   Reach r;
   for (int a = 0; a < g.dimension; ++a) {
-    const double s = g.storage(points.at(position + kLanes * a, i), a), base = Support::base(s),
-                 f = s - base;
+    const double t = g.knots(points.at(position + kLanes * a, i), a), base = Support::base(t),
+                 f = t - base + 0.5;
     r.first[static_cast<std::size_t>(a)] = static_cast<int>(base);
     const double lp = shape == KernelShape::gimp
                           ? std::min(0.5, points.at(half_width + kLanes * a, i) * g.inv_h)

@@ -75,7 +75,7 @@ std::vector<SpaceBox> SphContact::boxes() {
 void SphContact::place(Carrier& q, const Triple& x) const {
   for (int a = 0; a < dim_; ++a) {
     const auto k = static_cast<std::size_t>(a);
-    const double u = geometry_.storage(x[k], a), base = Support::base(u), f = u - base;
+    const double t = geometry_.knots(x[k], a), base = Support::base(t), f = t - base + 0.5;
     q.first[k] = static_cast<int>(base);
     q.weight[k][0] = 0.5 * (1.5 - f) * (1.5 - f);
     q.weight[k][1] = 0.75 - (f - 1) * (f - 1);

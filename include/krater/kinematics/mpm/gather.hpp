@@ -345,11 +345,11 @@ KRATER_FORCE_INLINE Mask left_block(const SweepSettings& settings, const PatchOr
   const GridGeometry& grid = *settings.geometry;
   Mask out = Pack(0.0) > Pack(0.0);
   for (int a = 0; a < Dim; ++a) {
-    const Pack s = storage(grid, x(g, a), a);
-    const Pack cell = Support::base(s) - origin.first[a];
+    const Pack t = knots(grid, x(g, a), a);
+    const Pack cell = Support::base(t) - origin.first[a];
     out = out | (cell < Pack(0.0)) | (cell >= Pack(static_cast<double>(block_edge(Dim)))) |
-          (s < Pack(settings.first[static_cast<unsigned>(a)])) |
-          (s > Pack(settings.last[static_cast<unsigned>(a)]));
+          (t < Pack(settings.first[static_cast<unsigned>(a)])) |
+          (t > Pack(settings.last[static_cast<unsigned>(a)]));
   }
   return out;
 }

@@ -50,7 +50,7 @@ struct SweepSettings {
   bool may_sleep = false;      ///< blocks at rest may be passed over
   bool average_cells = false;  ///< theory 18
   const double* pressure_nodes = nullptr;  ///< second records of all node blocks; none: no fluid
-  std::array<double, 3> first{}, last{};   ///< where the domain ends, storage coordinates
+  std::array<double, 3> first{}, last{};   ///< where the domain ends [knots]
   std::array<std::array<CutCells, 2>, 3> cut{};  ///< [axis][0 lower, 1 upper]
 };
 

@@ -4,21 +4,31 @@
 /// Points that left their block move to the neighbour, the others stay where they are: a full sort
 /// would cost as much as a step (theory 21). Order is fixed: holes are filled from the end of the
 /// patch, arrivals are appended by neighbour (lexicographic), then by their old index; so the bits
-/// do not depend on threads.
+/// do not depend on threads. Points that change the level of their cells go by lists of their own,
+/// in the order of their patches.
 #include "krater/contact/boundary.hpp"
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
+#include "krater/kinematics/mpm/split.hpp"
 
 namespace krater {
 
 /// Move leaving points of one patch into its outbox, or out of the computation: through an open
 /// side of the domain, or failed where the body's failure removes. `leavers`: lane mask per group.
-Removed collect_leavers(Patch& patch, const GridGeometry& geometry, const BoundarySet& boundary,
+Removed collect_leavers(Patch& patch, const Levels& levels, const BoundarySet& boundary,
                         const PointColumns& columns, const unsigned char* leavers);
 
-/// Hand the outboxes over; makes and drops patches as needed. Returns true when the topology
-/// changed (relink!).
-bool deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies);
+/// What the outboxes led to.
+struct Delivered {
+  bool changed = false;   ///< the topology: relink!
+  double kinetic = 0;     ///< of points that changed their level, by definition (split.hpp) [J]
+  double made = 0;        ///< points, by splitting
+  double finer_rate = 0;  ///< 1/dt at CFL 1 that points may have among finer cells [1/s]
+};
+/// Hand the outboxes over; makes and drops patches as needed, and splits what comes among finer
+/// cells, by the sizes of the bodies.
+Delivered deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                  std::vector<PointSize>& sizes);
 
 /// New points of `body`, records of stride/8 doubles, to the blocks of their positions; what lies
 /// beyond an open side is removed at once. Relink afterwards.

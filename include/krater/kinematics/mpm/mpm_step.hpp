@@ -2,8 +2,8 @@
 #pragma once
 /// \file kinematics/mpm/mpm_step.hpp
 /// One time step of the Material Point Method (theory 2-4, 11, 12):
-///   particles_to_grid -> fold symmetry planes -> momentum -> contact -> walls ->
-///   grid_to_particles (+ stresses) -> migrate.
+///   particles_to_grid -> fold symmetry planes, tie levels -> momentum -> contact -> walls ->
+///   mirror, tie -> grid_to_particles (+ stresses) -> migrate.
 /// update usl: stress from v+ in the same gather. musl: velocities first, re-projected, stress from
 /// the projection. usf: stress from v- first, of the motion of the step before. xpic(m): grid
 /// velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
@@ -26,6 +26,7 @@
 #include "krater/kinematics/mpm/options.hpp"
 #include "krater/kinematics/mpm/reference.hpp"
 #include "krater/kinematics/mpm/reference_contact.hpp"
+#include "krater/kinematics/mpm/ties.hpp"
 
 namespace krater {
 
@@ -92,6 +93,11 @@ class MpmStep final : public Kinematics {
     double& least = node_settings_.smallest_mass;
     least = least > 0 ? std::min(least, 1e-15 * m) : 1e-15 * m;
   }
+  /// How points of each body are made: what splitting goes by.
+  void set_sizes(std::vector<PointSize> by_body) { sizes_ = std::move(by_body); }
+  const std::vector<PointSize>& sizes() const { return sizes_; }
+  /// After a fault: points under way between blocks go where they belong.
+  void deliver_leavers() { deliver(grid_, bodies_, sizes_); }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
   void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 
@@ -119,7 +125,9 @@ class MpmStep final : public Kinematics {
   void note_put_back();
   void write_node_work();
   void book();
-  void halve_until_safe(double& dt, double max_change);
+  std::vector<MomentumSettings> momentum_settings(double dt_force) const;
+  double safe_share(double dt_force) const;
+  void shorten(double& dt, double share);
   void watch_energy() const;
   void name_limit(Patch& patch) const;
   void account_folds(double dt);
@@ -153,8 +161,14 @@ class MpmStep final : public Kinematics {
   void migrate();
   bool renew_references();
   void measure_gaps();
-  CutCells cut_cells(int axis, int side) const;
-  SweepSettings settings(double dt) const;
+  CutCells cut_cells(int axis, int side, const GridGeometry& geometry) const;
+  SweepSettings settings(double dt, int level = 0) const;
+  std::vector<SweepSettings> all_settings(double dt) const;  ///< by level
+  static std::size_t level_of(const Patch& patch) {
+    return static_cast<std::size_t>(patch.key.level);
+  }
+  /// Momentum of a block that more than its tiles must be added to first.
+  static bool waits(const NodeBlock& block) { return block.at_boundary || block.at_tie; }
   /// Node blocks that are not worth a second thread (for_each).
   std::size_t few_blocks() const { return grid_.geometry().dimension == 3 ? 8 : 64; }
   SweepScratch scratch();
@@ -167,10 +181,12 @@ class MpmStep final : public Kinematics {
   BoundarySet& boundary_;
   ContactSet& contact_;
   RigidBodies& rigid_;
+  Ties ties_;
   const Kernels& kernels_;
   const Kernels& plain_;
   const std::vector<BodyKernelData>& bodies_;
-  std::vector<PointColumns> columns_;               ///< of the bodies
+  std::vector<PointColumns> columns_;  ///< of the bodies
+  std::vector<PointSize> sizes_;
   std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
   std::vector<BodyKernelData> position_as_velocity_;  ///< fixed reference: x and F as v and L
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
@@ -188,7 +204,7 @@ class MpmStep final : public Kinematics {
   Audit::StepHeat heat_;
   Stopwatch<phase_names.size()> watch_;
   MomentumSettings node_settings_;
-  std::vector<std::size_t> boundary_blocks_;
+  std::vector<std::size_t> waiting_blocks_;
   std::vector<std::size_t> stale_;  ///< patches that have not been scattered ahead
   TimeStepLimit limit_;
   double last_step_ = 0;  ///< usf: strains are those of the step before [s]

@@ -32,9 +32,9 @@ KRATER_FORCE_INLINE PatchOrigin origin_of(const Patch& patch) {
   return o;
 }
 
-/// Storage coordinate, the same expression as GridGeometry::storage.
-KRATER_FORCE_INLINE Pack storage(const GridGeometry& grid, Pack x, int axis) {
-  return (x - grid.min[static_cast<unsigned>(axis)]) * grid.inv_h + 1.0;
+/// Knot coordinate, the same expression as GridGeometry::knots.
+KRATER_FORCE_INLINE Pack knots(const GridGeometry& grid, Pack x, int axis) {
+  return (x - grid.min[static_cast<unsigned>(axis)]) * grid.inv_h + grid.scale - grid.origin;
 }
 
 /// Index of a point's cell in its block, and which lanes lie in the block at all.
@@ -47,7 +47,7 @@ KRATER_FORCE_INLINE LocalCell local_cell(const GridGeometry& grid, const PatchOr
                                          ReadView x, int g) {
   LocalCell out{0.0, first_lanes(kLanes)};
   for (int a = 0; a < Dim; ++a) {
-    const Pack cell = Support::base(storage(grid, x(g, a), a)) - origin.first[a];
+    const Pack cell = Support::base(knots(grid, x(g, a), a)) - origin.first[a];
     const auto edge = static_cast<double>(block_edge(Dim));
     out.inside = out.inside & (cell >= Pack(0.0)) & (cell < Pack(edge));
     out.index = out.index * edge + cell;
@@ -61,9 +61,9 @@ KRATER_FORCE_INLINE void compute_weights(const GridGeometry& grid, const PatchOr
                                          LaneWeights<Dim>& out) {
   Pack local = 0.0;
   for (int a = 0; a < Dim; ++a) {
-    const Pack s = storage(grid, x(g, a), a);
-    const Pack base = Shape::base(s);
-    const Pack f = s - base;
+    const Pack t = knots(grid, x(g, a), a);
+    const Pack base = Shape::base(t);
+    const Pack f = t - base + 0.5;
     Pack lp = 0.5;
     if constexpr (Shape::has_width) lp = min(half_width(g, a) * grid.inv_h, Pack(0.5));
     const Knots k = Shape::at(f, lp);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file kinematics/mpm/split.hpp
+/// A point that comes among finer cells is too large for them: one of spacing s in cells of s/2 is
+/// noise. Where its mass is more than 1.4^dim that of a point of its level and place,
+///   m_l = rho_0 prod_a (h_l/n_a),   n_a points along axis a of a cell (times 2 pi r),
+/// it becomes 2^dim points at x + d, d_a = -+s_a/4, with its state, its L and
+///   m_c = w_c m,   v_c = v + L (d_c - sum w d),   w_c = 1/2^dim, about an axis as r_c,
+/// so mass, momentum, the heat in it and the motion about its centre are kept, and about an axis
+/// every part keeps its share of the section. By mass and not by volume: matter that has expanded
+/// needs no more points. By size and not by level: a part that lands among the coarse cells stays
+/// what it is. Where the body keeps its deformation F, d is F d_0, up to half a cell of the level
+/// above.
+///
+/// Kinetic energy with its affine part (h_l^2/4 per axis, as all sums count it) is one of the
+/// level: where a point changes it, whole or split, the difference is a matter of definition,
+///   m/2 L:L (h_to^2 - h_from^2)/4 + m/2 sum w |L d|^2,
+/// and is booked as such (Audit::level_change).
+#include <array>
+#include <vector>
+
+#include "krater/grid/levels.hpp"
+#include "krater/points/columns.hpp"
+
+namespace krater {
+
+/// What points of a body are made like.
+struct PointSize {
+  double density = 0;                         ///< of the undeformed material [kg/m^3]
+  std::array<int, 3> per_direction{2, 2, 2};  ///< points in a cell, per grid axis
+  bool hoop = false;                          ///< masses are those of the full revolution
+  double next_id = 0;                         ///< of the next point that splitting makes
+  double mass(const GridGeometry& geometry, double r) const;
+};
+
+/// One point as stride/8 doubles, at the level where it is now.
+struct Arrival {
+  BlockKey key;
+  int body = 0;
+  std::vector<double> record;
+};
+
+/// Adds the parts of a point that lies in cells of `level` and came from those of `from`, or the
+/// point itself; returns how much more kinetic energy they have by definition [J].
+double arrive(const Levels& levels, const PointColumns& columns, PointSize& size, int from,
+              Arrival point, std::vector<Arrival>& out);
+
+}  // namespace krater

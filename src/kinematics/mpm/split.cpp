@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "krater/kinematics/mpm/split.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "krater/kinematics/mpm/migrate.hpp"
+
+namespace krater {
+
+namespace {
+
+constexpr double kTooLarge = 1.4;  ///< in spacings along each axis
+
+/// A record of one point by the offsets of its columns.
+double& entry(std::vector<double>& record, int offset, int k = 0) {
+  return record[static_cast<std::size_t>(offset / kLanes + k)];
+}
+
+double kinetic_of(const std::vector<double>& record, const PointColumns& c, double h, int dim) {
+  const auto get = [&](int offset, int k) {
+    return record[static_cast<std::size_t>(offset / kLanes + k)];
+  };
+  double twice = 0;
+  for (int a = 0; a < dim; ++a) twice += get(c.velocity, a) * get(c.velocity, a);
+  for (int k = 0; c.affine >= 0 && k < dim * dim; ++k)
+    twice += Support::moment * h * h * get(c.affine, k) * get(c.affine, k);
+  return 0.5 * get(c.mass, 0) * twice;
+}
+
+/// Where the parts lie from the point's own place.
+std::vector<Triple> offsets(std::vector<double>& record, const PointColumns& c, const Triple& step,
+                            double most, int dim) {
+  std::vector<Triple> out;
+  for (int corner = 0; corner < corner_count(dim); ++corner) {
+    Triple d{};
+    for (int a = 0; a < dim; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      d[i] = corner_offset(corner, a) != 0 ? step[i] : -step[i];
+    }
+    if (c.deformation >= 0) {
+      Triple turned{};
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b) {
+          const int row = dim == 2 ? 2 * a : a, column = dim == 2 ? 2 * b : b;
+          turned[static_cast<std::size_t>(a)] +=
+              entry(record, c.deformation, 3 * row + column) * d[static_cast<std::size_t>(b)];
+        }
+      for (double& t : turned) t = std::clamp(t, -most, most);
+      d = turned;
+    }
+    out.push_back(d);
+  }
+  return out;
+}
+
+/// 2^dim points in the place of one of the level above `level`.
+void split(const Levels& levels, const PointColumns& c, PointSize& size, int level,
+           const Arrival& whole, std::vector<Arrival>& out) {
+  const GridGeometry& g = levels.geometry(level);
+  const int dim = g.dimension, parts = corner_count(dim);
+  Triple step{};
+  for (int a = 0; a < dim; ++a)
+    step[static_cast<std::size_t>(a)] = 0.5 * g.h / size.per_direction[static_cast<std::size_t>(a)];
+  std::vector<double> record = whole.record;
+  const std::vector<Triple> at = offsets(record, c, step, g.h, dim);
+  const double r = entry(record, c.position);
+  std::vector<double> share(at.size(), 1.0 / parts);
+  if (size.hoop) {
+    double sum = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) sum += share[k] = std::max(0.0, r + at[k][0]);
+    for (double& w : share) w /= sum;
+  }
+  Triple mean{};
+  for (std::size_t k = 0; k < at.size(); ++k)
+    for (std::size_t a = 0; a < 3; ++a) mean[a] += share[k] * at[k][a];
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if (!(share[k] > 0)) continue;
+    Arrival part = whole;
+    part.key.level = level;
+    for (int a = 0; a < dim; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      entry(part.record, c.position, a) += at[k][i];
+      for (int b = 0; c.affine >= 0 && b < dim; ++b) {
+        const auto j = static_cast<std::size_t>(b);
+        entry(part.record, c.velocity, a) +=
+            entry(record, c.affine, dim * a + b) * (at[k][j] - mean[j]);
+      }
+    }
+    entry(part.record, c.mass) *= share[k];
+    if (k > 0) entry(part.record, 0) = size.next_id++;
+    out.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
+double PointSize::mass(const GridGeometry& geometry, double r) const {
+  double m = density * (hoop ? 2 * std::numbers::pi * r : 1);
+  for (int a = 0; a < geometry.dimension; ++a)
+    m *= geometry.h / per_direction[static_cast<std::size_t>(a)];
+  return m;
+}
+
+double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int from, Arrival point,
+              std::vector<Arrival>& out) {
+  const int dim = levels.geometry().dimension, level = point.key.level;
+  const double before = kinetic_of(point.record, c, levels.geometry(from).h, dim);
+  const double m = entry(point.record, c.mass), r = entry(point.record, c.position);
+  std::vector<Arrival> parts{std::move(point)}, next;
+  int splits = 0;
+  for (int l = from + 1; l <= level; ++l) {
+    if (!(m * std::pow(corner_count(dim), -splits) >
+          std::pow(kTooLarge, dim) * size.mass(levels.geometry(l), r)))
+      continue;
+    ++splits;
+    next.clear();
+    for (const Arrival& whole : parts) split(levels, c, size, l, whole, next);
+    parts.swap(next);
+  }
+  double after = 0;
+  for (Arrival& part : parts) {
+    double x[3] = {};
+    for (int a = 0; a < dim; ++a) x[a] = entry(part.record, c.position, a);
+    part.key = levels.block_at(x);
+    after += kinetic_of(part.record, c, levels.geometry(part.key.level).h, dim);
+    out.push_back(std::move(part));
+  }
+  return after - before;
+}
+
+}  // namespace krater
