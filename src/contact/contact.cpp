@@ -42,31 +42,55 @@ ContactSet::ContactSet(const GridGeometry& geometry, const BoundaryConditions& c
 
 /// Part of the shape function's volume, along one axis, that lies in the domain; about the axis of
 /// symmetry times the circumference [1 or m].
-double ContactSet::covered(int axis, int index) const {
+double ContactSet::covered(const GridGeometry& g, int axis, int index) const {
   const auto& sides = conditions_[static_cast<unsigned>(axis)];
-  const int last = geometry_.cells[static_cast<unsigned>(axis)] + 1;
   const bool low = sides[0].mirrors(axis), high = sides[1].mirrors(axis);
+  const double first = g.lower_storage(), last = g.upper_storage(axis);
+  if (g.planes_on_knots()) {
+    // The first node, half a cell inside, has its ghost's part where that is folded; what a wall
+    // leaves with the ghost is a sixth.
+    const bool at_low = low && index == first + 0.5, at_high = high && index == last - 0.5;
+    const bool whole = (!at_low || sides[0].folds()) && (!at_high || sides[1].folds());
+    const double part = whole ? 1 : 5.0 / 6;
+    if (!hoop_ || axis != 0) return part;
+    double radius = g.place(index, 0);
+    if (at_low) radius = g.min[0] + 7.0 / 12 * g.h;
+    if (at_high) radius = g.upper(0) - 7.0 / 12 * g.h;
+    return part * 2 * std::numbers::pi * radius;
+  }
   const bool cut = (low && index == 1) || (high && index == last);
   if (!hoop_ || axis != 0) return cut ? 0.5 : 1.0;
   // int S r dr over r > 0, with the ghost's part folded: B-spline 13/64 and 1 + 1/192 at the first
   // nodes of an axis at r = 0.
-  const double h = geometry_.h, r = geometry_.min[0] + (index - 1) * h;
+  const double h = g.h, r = g.min[0] + (index - 1) * h;
   double radius = cut ? 0.5 * r : r;
-  if (low && geometry_.min[0] <= 0 && index == 1) radius = (linear_ ? 1.0 / 6 : 13.0 / 64) * h;
-  if (low && geometry_.min[0] <= 0 && index == 2) radius = (linear_ ? 1 : 193.0 / 192) * h;
+  if (low && g.min[0] <= 0 && index == 1) radius = (linear_ ? 1.0 / 6 : 13.0 / 64) * h;
+  if (low && g.min[0] <= 0 && index == 2) radius = (linear_ ? 1 : 193.0 / 192) * h;
   return 2 * std::numbers::pi * radius;
 }
 
-int ContactSet::mirrored(int axis, int index) const {
+int ContactSet::mirrored(const GridGeometry& g, int axis, int index) const {
   const auto& sides = conditions_[static_cast<unsigned>(axis)];
-  const int last = geometry_.cells[static_cast<unsigned>(axis)] + 1;
-  if (sides[0].mirrors(axis) && index < 1) return 2 - index;
-  if (sides[1].mirrors(axis) && index > last) return 2 * last - index;
+  const double first = g.lower_storage(), last = g.upper_storage(axis);
+  if (sides[0].mirrors(axis) && index < first) return static_cast<int>(2 * first) - index;
+  if (sides[1].mirrors(axis) && index > last) return static_cast<int>(2 * last) - index;
   return index;
+}
+
+double ContactSet::whole_volume(const GridGeometry& g, const std::array<int, 3>& index) const {
+  double part = 1;
+  for (int a = 0; a < g.dimension; ++a) {
+    const int inside = mirrored(g, a, index[static_cast<unsigned>(a)]);
+    part *= g.h * covered(g, a, inside);
+  }
+  return part;
 }
 
 void ContactSet::relink(const BlockGrid& grid) {
   groups_.clear();
+  geometries_.clear();
+  for (int level = 0; level < grid.levels().count(); ++level)
+    geometries_.push_back(grid.geometry(level));
   if (!options_.active) return;
   const std::vector<NodeBlock>& blocks = grid.node_blocks();
   for (std::size_t n = 0; n < blocks.size();) {
@@ -98,13 +122,14 @@ ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<PointColumns>& 
 
 ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
   AxisLinks links;
+  const GridGeometry& g = geometry(key.level);
   for (int a = 0; a < geometry_.dimension; ++a)
     for (int i = 0; i < padded_; ++i) {
       const int origin = key.i[static_cast<unsigned>(a)] * edge_;
-      const int index = mirrored(a, origin + i - kHalo);
+      const int index = mirrored(g, a, origin + i - kHalo);
       const int offset = index < origin ? -1 : (index >= origin + edge_ ? 1 : 0);
       AxisLink& link = links[static_cast<unsigned>(a)][static_cast<unsigned>(i)];
-      const double part = geometry_.h * covered(a, index);
+      const double part = g.h * covered(g, a, index);
       link = {offset + 1, index - origin - offset * edge_, part > 0 ? 1 / part : 0};
     }
   return links;
@@ -157,12 +182,9 @@ void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratc
 double ContactSet::filling(const BlockGrid& grid, const std::array<int, 3>& index,
                            FieldId field) const {
   std::array<int, 3> inside{};
-  double part = 1;
-  for (int a = 0; a < geometry_.dimension; ++a) {
-    const auto k = static_cast<unsigned>(a);
-    inside[k] = mirrored(a, index[k]);
-    part *= geometry_.h * covered(a, inside[k]);
-  }
+  for (int a = 0; a < geometry_.dimension; ++a)
+    inside[static_cast<unsigned>(a)] = mirrored(geometry_, a, index[static_cast<unsigned>(a)]);
+  const double part = whole_volume(geometry_, inside);
   const double* node = grid.find_node(inside, field);
   return node != nullptr && part > 0 ? node[moved::volume] / part : 0.0;
 }
@@ -198,6 +220,7 @@ Triple ContactSet::exchange(double* a, double* b, const Contact& contact, double
 /// A plane that mirrors has taken the odd components of momenta and forces from its nodes; an
 /// impulse must not bring them back. False: nothing is left to push along.
 bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
+  if (geometry(key.level).planes_on_knots()) return true;  // no node lies on them
   for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
     const auto axis = static_cast<unsigned>(a);
     const int index = key.i[axis] * edge_ + rest % edge_;
@@ -220,7 +243,7 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& 
   std::array<double, 3> at{};
   for (int a = geometry_.dimension - 1, rest = contact.joint; a >= 0; --a, rest /= padded_) {
     const auto i = static_cast<unsigned>(a);
-    const int index = mirrored(a, home.key.i[i] * edge_ + rest % padded_ - kHalo);
+    const int index = mirrored(geometry_, a, home.key.i[i] * edge_ + rest % padded_ - kHalo);
     at[i] = geometry_.min[i] + (index - 1) * geometry_.h;
   }
   const auto body = [&](int f) {

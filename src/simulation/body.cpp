@@ -162,9 +162,9 @@ int Body::slot(const FieldInfo& field, int component) const {
   return c == nullptr ? -1 : c->offset / kLanes + component;
 }
 
-std::vector<SeedPoint> Body::seeds(const Scene& scene) {
+std::vector<SeedPoint> Body::lattice(const Scene& scene, int level) {
   LatticeOptions lattice;
-  lattice.cell = scene.grid.cell;
+  lattice.cell = std::ldexp(scene.grid.cell, -level);
   lattice.points_per_direction = options_->points.per_direction;
   lattice.fit_to_body = options_->points.fit_to_body;
   lattice.origin = scene.grid.min;
@@ -183,13 +183,19 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene) {
     throw InputError(
         options_->where +
         ": no part of this body lies inside the grid's box; move the body or enlarge grid.box");
+  return out;
+}
+
+std::vector<SeedPoint> Body::seeds(const Scene& scene, int level) {
+  std::vector<SeedPoint> out = lattice(scene, level);
   seed_moments_ = moments_of(out, scene.frame);
-  examine_thickness(scene, out);
+  examine_thickness(scene, out, std::ldexp(scene.grid.cell, -level));
   return out;
 }
 
 /// One cell cannot bend, shear or show a wave: what it does is not the material's doing.
-void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds) {
+void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds,
+                             double cell) {
   constexpr double kThinShare = 0.2, kToldShare = 0.05;
   MirrorSides mirrors{};
   for (std::size_t a = 0; a < 3; ++a)
@@ -201,7 +207,7 @@ void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& s
   };
   thickness_ = thickness(kToldShare);
   thin_ = thickness(kThinShare);
-  if (!options_->thin_allowed) require_thickness(scene.grid.cell);
+  if (!options_->thin_allowed) require_thickness(cell);
 }
 
 void Body::require_thickness(double cell) const {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,7 @@
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
 #include "krater/simulation/face_loads.hpp"
-#include "krater/simulation/point_maker.hpp"
+#include "krater/simulation/refinement.hpp"
 
 namespace krater {
 
@@ -114,6 +113,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) fields.push_back(own_field(b));
     grid_.set_fields(std::move(fields));
   }
+  if (!scene.grid.refine.empty()) grid_.set_levels(refined_regions(scene, geometry_));
   watch_impulses();
   loads_ = make_loads();
   step_ = std::make_unique<MpmStep>(
@@ -175,39 +175,10 @@ void Simulation::place_rigid_bodies() {
   rigid_.write_velocities(grid_, columns_of(kernel_data_));
 }
 
-void Simulation::place_points() {
-  std::map<std::pair<BlockKey, int>, int> where;
-  double smallest = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b]->options().material_points()) continue;
-    const std::vector<SeedPoint> seeds = bodies_[b]->seeds(scene_);
-    const int stride = bodies_[b]->layout().stride();
-    PointMaker maker{scene_, static_cast<int>(b), *bodies_[b]};
-    for (std::size_t id = 0; id < seeds.size(); ++id) {
-      const BlockKey key = block_of(geometry_, seeds[id].x.data());
-      const auto [at, is_new] =
-          where.try_emplace({key, static_cast<int>(b)}, static_cast<int>(grid_.patches().size()));
-      if (is_new) grid_.add_patch(key, static_cast<int>(b), stride);
-      std::vector<double>& record = maker.make(seeds[id], id);
-      if (detonation_.burns(static_cast<int>(b)))
-        record[static_cast<std::size_t>(bodies_[b]->slot(field::SinceLighting::info))] =
-            detonation_.since_lighting(static_cast<int>(b), seeds[id].x);
-      grid_.patches()[static_cast<std::size_t>(at->second)].append(record.data());
-      const double m = bodies_[b]->material().density * seeds[id].measure;
-      smallest = smallest > 0 ? std::min(smallest, m) : m;
-    }
-  }
-  detonation_.require_all_lit();
-  for (Patch& p : grid_.patches())
-    p.points.pad(kernel_data_[static_cast<std::size_t>(p.body)].columns.mass);
-  grid_.rebuild(true);
-  step_->set_smallest_mass(smallest);
-  step_->relink();
-}
-
 void Simulation::choose_first_step() {
-  double fastest = 0, signal = 0;
+  double fastest = 0, signal = 0, inv_h = 0;
   for (const Patch& p : grid_.patches()) {
+    inv_h = std::max(inv_h, grid_.geometry(p.key.level).inv_h);
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
     signal = std::max(signal, body.signal_speed());
@@ -222,7 +193,7 @@ void Simulation::choose_first_step() {
   }
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.
-  limit_.rate = std::max((2 * fastest + signal) * geometry_.inv_h, detonation_.rate(time()));
+  limit_.rate = std::max((2 * fastest + signal) * inv_h, detonation_.rate(time()));
   for (const Kinematics* k : movers_)
     if (k != step_.get() && k->limit().rate > limit_.rate) limit_ = k->limit();
   require_steps(scene_.time, clock_.stable_step(limit_.rate));

@@ -91,13 +91,14 @@ Totals Simulation::totals_of_set(int s) const {
   const int dim = geometry_.dimension;
   const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
   const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
+  const GridGeometry& geometry = geometry_of(s);
   // The lever of the affine part is F (X_I - X_p), with F = I on the current configuration.
   for (int i = 0; i < patch.points.count(); ++i) {
     const double* p = patch.points.point(i);
     const double m = p[c.mass];
     t.count += 1;
     t.mass += m;
-    t.kinetic += point_kinetic(p, c, geometry_);
+    t.kinetic += point_kinetic(p, c, geometry);
     if (c.energy >= 0) t.internal += m * p[c.energy];
     if (c.carried >= 0) t.internal += m * p[c.carried];
     for (int a = 0; a < dim; ++a)
@@ -111,7 +112,7 @@ Totals Simulation::totals_of_set(int s) const {
     };
     for (int a = 0; a < dim; ++a)
       t.angular_momentum +=
-          m * Support::moment * geometry_.h * geometry_.h *
+          m * Support::moment * geometry.h * geometry.h *
           (F(0, a) * p[c.affine + kLanes * (dim + a)] - F(1, a) * p[c.affine + kLanes * a]);
   }
   return t;
@@ -172,7 +173,7 @@ double Simulation::energy_per_mass(int s, int point) const {
   } else {
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(set(s).body)].columns;
     energy =
-        point_kinetic(set(s).points->point(point), c, geometry_) / value(s, point, c.mass / kLanes);
+        point_kinetic(set(s).points->point(point), c, geometry_of(s)) / value(s, point, c.mass / kLanes);
   }
   const int e = body.slot(field::InternalEnergy::info);
   return e < 0 ? energy : energy + value(s, point, e);

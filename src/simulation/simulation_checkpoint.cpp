@@ -84,6 +84,7 @@ void Simulation::save_body(int b, Checkpoint& out) const {
     if (s < first_points()) continue;
     const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
+    keys.push_back(patch.key.level);
     keys.push_back(patch.points.count());
   }
   out.blobs.push_back(integers(blob_name(body, "patches"), std::move(keys)));
@@ -113,6 +114,40 @@ void Simulation::save_body(int b, Checkpoint& out) const {
     out.blobs.push_back(numbers(blob_name(body, "rigid"), rigid->state()));
 }
 
+/// The map of the levels, and where the numbers of new points go on.
+void Simulation::save_levels(Checkpoint& out) const {
+  if (scene_.grid.refine.empty()) return;
+  std::vector<std::int64_t> map;
+  for (const BlockKey& key : grid_.levels().refined()) {
+    map.insert(map.end(), key.i.begin(), key.i.end());
+    map.push_back(key.level);
+  }
+  out.blobs.push_back(integers("levels/refined", std::move(map)));
+  std::vector<double> ids;
+  for (const PointSize& size : step_->sizes()) ids.push_back(size.next_id);
+  out.blobs.push_back(numbers("levels/next_ids", std::move(ids)));
+}
+
+void Simulation::restore_levels(const Checkpoint& checkpoint) {
+  if (scene_.grid.refine.empty()) {
+    if (checkpoint.find("levels/refined") != nullptr)
+      throw InputError("checkpoint: it belongs to a scene with grid.refine");
+    return;
+  }
+  const auto& map = demand(checkpoint, "levels/refined").integers;
+  BlockSet refined;
+  for (std::size_t i = 0; i + 3 < map.size(); i += 4) {
+    BlockKey key;
+    for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(map[i + a]);
+    key.level = static_cast<std::int32_t>(map[i + 3]);
+    refined.insert(key);
+  }
+  grid_.set_levels(std::move(refined));
+  const auto& ids = demand(checkpoint, "levels/next_ids").doubles;
+  for (std::size_t b = 0; b < step_->sizes().size() && b < ids.size(); ++b)
+    step_->sizes()[b].next_id = ids[b];
+}
+
 Checkpoint Simulation::save() const {
   Checkpoint out;
   out.blobs.push_back(numbers("clock", {time(), dt(), dt_free(), clock_.least(), limit_.rate,
@@ -126,6 +161,7 @@ Checkpoint Simulation::save() const {
   for (const ImpulsePair& p : impulses_.pairs())
     out.blobs.push_back(numbers(impulse_name(p), {p.impulse[0], p.impulse[1], p.impulse[2]}));
   warnings_.save(out);
+  save_levels(out);
   for (std::size_t b = 0; b < bodies_.size(); ++b) save_body(static_cast<int>(b), out);
   return out;
 }
@@ -160,11 +196,12 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
   const std::size_t first = grid_.patches().size();
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i + 3 < keys.size(); i += 4) {
+  for (std::size_t i = 0; i + 4 < keys.size(); i += 5) {
     BlockKey key;
     for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(keys[i + a]);
-    grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 3]));
-    count += static_cast<std::uint64_t>(keys[i + 3]);
+    key.level = static_cast<std::int32_t>(keys[i + 3]);
+    grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 4]));
+    count += static_cast<std::uint64_t>(keys[i + 4]);
   }
   std::vector<int> sets(grid_.patches().size() - first);
   std::iota(sets.begin(), sets.end(), first_points() + static_cast<int>(first));
@@ -207,6 +244,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
       std::copy_n(blob->doubles.begin(), 3, p.impulse.begin());
   warnings_.restore(checkpoint);
   grid_.drop_patches();
+  restore_levels(checkpoint);
   for (std::size_t b = 0; b < bodies_.size(); ++b) restore_body(static_cast<int>(b), checkpoint);
   grid_.rebuild(true);
   step_->relink();

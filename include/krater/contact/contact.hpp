@@ -89,6 +89,9 @@ class ContactSet {
   void give(Impulses& impulses) const;
   /// phi of a field at a node, by its storage index; 0 where it has none. While nodes hold volumes.
   double filling(const BlockGrid& grid, const std::array<int, 3>& index, FieldId field) const;
+  /// What a body that fills the space about a node has there: the volume that its function covers
+  /// in the domain [m^3].
+  double whole_volume(const GridGeometry& geometry, const std::array<int, 3>& index) const;
   std::size_t shared_blocks() const { return groups_.size(); }
 
  private:
@@ -145,8 +148,11 @@ class ContactSet {
     double inverse;   ///< 1/covered
   };
   using AxisLinks = std::array<std::array<AxisLink, 12>, 3>;
+  const GridGeometry& geometry(int level) const {
+    return geometries_[static_cast<std::size_t>(level)];
+  }
   AxisLinks axis_links(const BlockKey& key) const;
-  double covered(int axis, int index) const;
+  double covered(const GridGeometry& geometry, int axis, int index) const;
   bool is_fluid(int body) const {
     return static_cast<std::size_t>(body) < fluids_.size() &&
            fluids_[static_cast<std::size_t>(body)];
@@ -155,7 +161,7 @@ class ContactSet {
     return listed_.empty() || listed_[static_cast<std::size_t>(body_a)] ||
            listed_[static_cast<std::size_t>(body_b)];
   }
-  int mirrored(int axis, int index) const;
+  int mirrored(const GridGeometry& geometry, int axis, int index) const;
   void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
                      Scratch& scratch, const RigidBodies& rigid) const;
   void refine(const BlockGrid& grid, const std::vector<PointColumns>& columns, const Group& group,
@@ -183,6 +189,7 @@ class ContactSet {
   Triple exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;
 
   GridGeometry geometry_;
+  std::vector<GridGeometry> geometries_;  ///< of all levels
   BoundaryConditions conditions_;
   bool hoop_, linear_;
   ContactOptions options_;

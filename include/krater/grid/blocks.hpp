@@ -134,7 +134,7 @@ struct NodeBlock {
   FieldId field{};
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   std::uint64_t tied = 0;         ///< nodes that follow from those of the level above, a bit each
-  bool at_tie = false;            ///< holds such nodes, or some that they follow from
+  bool at_tie = false;            ///< holds such nodes, some that they follow from, or next to them
   bool at_boundary = false;
   bool at_wall = false;  ///< holds columns of a unilateral wall
   bool still = false;    ///< every v+ and dv of the block is exactly zero

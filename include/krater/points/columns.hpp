@@ -12,6 +12,7 @@ namespace krater {
 struct PointColumns {
   int stride = 0, local_stride = 0;
   int grid_position = -1;  ///< where the weights are taken: `position`, or on a fixed reference
+  int reference = -1;      ///< position at the start
   int map = -1;            ///< fixed reference: F since then, over grid axes
   int position = -1, velocity = -1, mass = -1, density = -1;
   int affine = -1, stress = -1, pressure = -1, viscous = -1, energy = -1, sound_speed = -1;

@@ -26,11 +26,30 @@
 
 namespace krater {
 
+/// Where cells are halved, once per level: in a region, around a body, or where a field is large.
+struct RefineOptions {
+  std::string where;
+  int level = 1;
+  std::optional<Box> box;               ///< along the grid axes, or ...
+  std::shared_ptr<const Solid> region;  ///< ... a shape
+  std::string follow_name;              ///< "": none
+  int follow = -1;                      ///< its index among the bodies
+  double margin = 0;                    ///< around it [m]
+  std::string field;                    ///< name of a field of the points; "": none
+  double above = 0;                     ///< its threshold
+};
+
 struct GridOptions {
   std::string where;
   double cell = 0;                                  ///< h [m]
   Triple min{}, max{};                              ///< domain [m]
   std::array<std::array<Boundary, 2>, 3> boundary;  ///< [axis][0 lower, 1 upper]
+  std::vector<RefineOptions> refine;                ///< empty: one level
+  int finest() const {
+    int level = 0;
+    for (const RefineOptions& rule : refine) level = level > rule.level ? level : rule.level;
+    return level;
+  }
 };
 
 struct TimeOptions {

@@ -45,12 +45,14 @@ class Body {
 
   /// Seeds of the body inside the domain; throws InputError when there are none, or when the body
   /// is no more than a cell thick.
-  std::vector<SeedPoint> seeds(const Scene& scene);
+  std::vector<SeedPoint> seeds(const Scene& scene, int level = 0);
+  /// The same without a look at what they are like. Throws where there are none.
+  std::vector<SeedPoint> lattice(const Scene& scene, int level);
   /// Offset in a point's record (doubles), -1 if the column does not exist.
   int slot(const FieldInfo& field, int component = 0) const;
 
  private:
-  void examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds);
+  void examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds, double cell);
   void add_stages(const StageFactory& factory);
 
   const BodyOptions* options_;

@@ -96,6 +96,13 @@ class Simulation {
     if (s >= first_points()) return step_->set(s - first_points());
     return s < mesh_sets() ? mesh_->set(s) : sph_->set(s - mesh_sets());
   }
+  /// The cells about the points of a set.
+  const GridGeometry& geometry_of(int s) const {
+    return s < first_points()
+               ? geometry_
+               : grid_.geometry(
+                     grid_.patches()[static_cast<std::size_t>(s - first_points())].key.level);
+  }
   const MeshStep* mesh() const { return mesh_.get(); }  ///< null: no body has elements
   bool is_mesh_set(int s) const { return s < mesh_sets(); }
   bool is_mesh(int body) const {
@@ -141,7 +148,11 @@ class Simulation {
   void restore_mesh(int body, const Checkpoint& checkpoint);
   std::unique_ptr<NodeLoads> make_loads();
   Totals totals_of_set(int s) const;
+  void save_levels(Checkpoint& out) const;
+  void restore_levels(const Checkpoint& checkpoint);
   void place_points();
+  double place_body(int body);  ///< smallest mass of a point that it may come to [kg]
+  int coarsest_level(int body);
   void place_rigid_bodies();
   void save_body(int body, Checkpoint& out) const;
   void restore_body(int body, const Checkpoint& checkpoint);

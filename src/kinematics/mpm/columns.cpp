@@ -77,6 +77,7 @@ PointColumns point_columns(const Layout& layout, bool removes) {
   c.position = state(field::Position{});
   c.grid_position = state(field::ConfigurationPosition{});
   if (c.grid_position < 0) c.grid_position = c.position;
+  c.reference = state(field::ReferencePosition{});
   c.map = state(field::ConfigurationMap{});
   c.velocity = state(field::Velocity{});
   c.mass = state(field::Mass{});

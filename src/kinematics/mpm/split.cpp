@@ -29,63 +29,61 @@ double kinetic_of(const std::vector<double>& record, const PointColumns& c, doub
   return 0.5 * get(c.mass, 0) * twice;
 }
 
-/// Where the parts lie from the point's own place.
-std::vector<Triple> offsets(std::vector<double>& record, const PointColumns& c, const Triple& step,
+/// Where the parts lie from the point's own place, in the undeformed body and now.
+struct Offset {
+  Triple before{}, now{};
+};
+std::vector<Offset> offsets(std::vector<double>& record, const PointColumns& c, const Triple& step,
                             double most, int dim) {
-  std::vector<Triple> out;
+  std::vector<Offset> out(static_cast<std::size_t>(corner_count(dim)));
   for (int corner = 0; corner < corner_count(dim); ++corner) {
-    Triple d{};
+    Offset& d = out[static_cast<std::size_t>(corner)];
     for (int a = 0; a < dim; ++a) {
       const auto i = static_cast<std::size_t>(a);
-      d[i] = corner_offset(corner, a) != 0 ? step[i] : -step[i];
+      d.before[i] = corner_offset(corner, a) != 0 ? step[i] : -step[i];
     }
-    if (c.deformation >= 0) {
-      Triple turned{};
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b) {
-          const int row = dim == 2 ? 2 * a : a, column = dim == 2 ? 2 * b : b;
-          turned[static_cast<std::size_t>(a)] +=
-              entry(record, c.deformation, 3 * row + column) * d[static_cast<std::size_t>(b)];
-        }
-      for (double& t : turned) t = std::clamp(t, -most, most);
-      d = turned;
+    d.now = d.before;
+    if (c.deformation < 0) continue;
+    for (int a = 0; a < dim; ++a) {
+      double sum = 0;
+      for (int b = 0; b < dim; ++b) {
+        const int row = dim == 2 ? 2 * a : a, column = dim == 2 ? 2 * b : b;
+        sum += entry(record, c.deformation, 3 * row + column) *
+               d.before[static_cast<std::size_t>(b)];
+      }
+      d.now[static_cast<std::size_t>(a)] = std::clamp(sum, -most, most);
     }
-    out.push_back(d);
   }
   return out;
 }
 
-/// 2^dim points in the place of one of the level above `level`.
-void split(const Levels& levels, const PointColumns& c, PointSize& size, int level,
+/// 2^dim points in the place of one, `step` from it along each axis.
+void split(const GridGeometry& g, const PointColumns& c, PointSize& size, const Triple& step,
            const Arrival& whole, std::vector<Arrival>& out) {
-  const GridGeometry& g = levels.geometry(level);
   const int dim = g.dimension, parts = corner_count(dim);
-  Triple step{};
-  for (int a = 0; a < dim; ++a)
-    step[static_cast<std::size_t>(a)] = 0.5 * g.h / size.per_direction[static_cast<std::size_t>(a)];
   std::vector<double> record = whole.record;
-  const std::vector<Triple> at = offsets(record, c, step, g.h, dim);
+  const std::vector<Offset> at = offsets(record, c, step, g.h, dim);
   const double r = entry(record, c.position);
   std::vector<double> share(at.size(), 1.0 / parts);
   if (size.hoop) {
     double sum = 0;
-    for (std::size_t k = 0; k < at.size(); ++k) sum += share[k] = std::max(0.0, r + at[k][0]);
+    for (std::size_t k = 0; k < at.size(); ++k) sum += share[k] = std::max(0.0, r + at[k].now[0]);
     for (double& w : share) w /= sum;
   }
   Triple mean{};
   for (std::size_t k = 0; k < at.size(); ++k)
-    for (std::size_t a = 0; a < 3; ++a) mean[a] += share[k] * at[k][a];
+    for (std::size_t a = 0; a < 3; ++a) mean[a] += share[k] * at[k].now[a];
   for (std::size_t k = 0; k < at.size(); ++k) {
     if (!(share[k] > 0)) continue;
     Arrival part = whole;
-    part.key.level = level;
     for (int a = 0; a < dim; ++a) {
       const auto i = static_cast<std::size_t>(a);
-      entry(part.record, c.position, a) += at[k][i];
+      entry(part.record, c.position, a) += at[k].now[i];
+      if (c.reference >= 0) entry(part.record, c.reference, a) += at[k].before[i];
       for (int b = 0; c.affine >= 0 && b < dim; ++b) {
         const auto j = static_cast<std::size_t>(b);
         entry(part.record, c.velocity, a) +=
-            entry(record, c.affine, dim * a + b) * (at[k][j] - mean[j]);
+            entry(record, c.affine, dim * a + b) * (at[k].now[j] - mean[j]);
       }
     }
     entry(part.record, c.mass) *= share[k];
@@ -104,7 +102,7 @@ double PointSize::mass(const GridGeometry& geometry, double r) const {
 }
 
 double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int from, Arrival point,
-              std::vector<Arrival>& out) {
+              std::vector<Arrival>& out, const Triple* half_width) {
   const int dim = levels.geometry().dimension, level = point.key.level;
   const double before = kinetic_of(point.record, c, levels.geometry(from).h, dim);
   const double m = entry(point.record, c.mass), r = entry(point.record, c.position);
@@ -116,7 +114,11 @@ double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int 
       continue;
     ++splits;
     next.clear();
-    for (const Arrival& whole : parts) split(levels, c, size, l, whole, next);
+    Triple step{};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+      step[a] = half_width != nullptr ? std::ldexp((*half_width)[a], -splits)
+                                      : 0.5 * levels.geometry(l).h / size.per_direction[a];
+    for (const Arrival& whole : parts) split(levels.geometry(l), c, size, step, whole, next);
     parts.swap(next);
   }
   double after = 0;

@@ -34,9 +34,9 @@ void Ties::relink() {
   const int levels = grid_.levels().count();
   tied_ranges_.assign(static_cast<std::size_t>(levels), {});
   master_ranges_.assign(static_cast<std::size_t>(levels), {});
+  for (NodeBlock& block : grid_.node_blocks()) block.at_tie = block.tied != 0;
   for (std::size_t b = 0; b < grid_.node_blocks().size(); ++b) {
-    NodeBlock& block = grid_.node_blocks()[b];
-    block.at_tie = block.tied != 0;
+    const NodeBlock& block = grid_.node_blocks()[b];
     if (block.tied == 0) continue;
     tied_blocks_.push_back(b);
     Range& range = tied_ranges_[static_cast<std::size_t>(block.key.level)];
@@ -78,8 +78,10 @@ void Ties::add_tied(const NodeBlock& block, int node) {
       const bool beyond = side == 0 ? i < plane : i > plane;
       const Boundary& condition =
           boundary_.conditions()[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)];
-      tied.beside[static_cast<std::size_t>(2 * a + side)] =
-          inside && beyond && condition.folds() ? kImage : node_at(next, block.field, level);
+      std::int32_t& at = tied.beside[static_cast<std::size_t>(2 * a + side)];
+      at = inside && beyond && condition.folds() ? kImage : node_at(next, block.field, level);
+      if (at >= 0)  // slopes read its raw sums
+        grid_.node_blocks()[static_cast<std::size_t>(at / kBlockNodes)].at_tie = true;
     }
 }
 

@@ -313,6 +313,7 @@ void check_scene(Reading& reading) {
   check_meshes(reading);
   check_particles(reading);
   check_softening(reading);
+  check_refine(reading);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
       check_overlap(scene.bodies[i], scene.bodies[j], reading);

@@ -63,32 +63,13 @@ std::array<int, 3> read_per_direction(Block& block, int fallback, int most, Read
 
 constexpr int kMostPerDirection = 8;
 
-/// Corners with two components are (r or x, z); in 3d the zone is then as wide across y as across
-/// x.
 RefinedZone read_zone(const Node& node, Reading& reading) {
   Block block{&node, node.path, node, reading.problems};
   RefinedZone zone;
-  std::optional<Triple> low, high;
-  const Node* min = block.require("min", "[r or x, z] or [x, y, z]");
-  const Node* max = block.require("max", "[r or x, z] or [x, y, z]");
-  if (min) low = read_position(*min, reading);
-  if (max) high = read_position(*max, reading);
+  if (const std::optional<Box> box = read_corners(block, reading)) zone.box = *box;
   zone.points_per_direction = read_per_direction(block, 4, kMostPerDirection, reading);
   zone.falloff = block.integer("falloff", 1, 1000, 2);
   block.finish();
-  if (!low || !high) return zone;
-  if (dimension(reading.scene.frame) == 3) {
-    if (max->items.size() == 2) {
-      (*high)[1] = (*high)[0];
-      (*low)[0] = (*low)[1] = -(*high)[0];
-    }
-    zone.box = {*low, *high};
-  } else {
-    zone.box = {{(*low)[0], (*low)[2], 0}, {(*high)[0], (*high)[2], 0}};
-  }
-  for (int a = 0; a < dimension(reading.scene.frame); ++a) {
-    if (!(zone.box.length(a) > 0)) block.fail("max must lie beyond min along every axis");
-  }
   return zone;
 }
 

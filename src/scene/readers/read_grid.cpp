@@ -150,6 +150,7 @@ Node read_grid(const Node* node, Reading& reading) {
   add_member(corners, "max", vector_node(frame, grid.max));
   block.record("box", corners);
   block.record("boundary", boundary);
+  read_refine(block, reading);
   return block.finish();
 }
 

@@ -159,4 +159,27 @@ Node vector_node(Frame frame, const Triple& value) {
   return list_node(items);
 }
 
+std::optional<Box> read_corners(Block& block, Reading& reading) {
+  std::optional<Triple> low, high;
+  const Node* min = block.require("min", "[r or x, z] or [x, y, z]");
+  const Node* max = block.require("max", "[r or x, z] or [x, y, z]");
+  if (min) low = read_position(*min, reading);
+  if (max) high = read_position(*max, reading);
+  if (!low || !high) return {};
+  Box box{};
+  const int dim = dimension(reading.scene.frame);
+  if (dim == 3) {
+    if (max->items.size() == 2) {
+      (*high)[1] = (*high)[0];
+      (*low)[0] = (*low)[1] = -(*high)[0];
+    }
+    box = {*low, *high};
+  } else {
+    box = {{(*low)[0], (*low)[2], 0}, {(*high)[0], (*high)[2], 0}};
+  }
+  for (int a = 0; a < dim; ++a)
+    if (!(box.length(a) > 0)) block.fail("max must lie beyond min along every axis");
+  return box;
+}
+
 }  // namespace krater::scene

@@ -26,6 +26,10 @@ struct Reading {
 };
 
 Node read_grid(const Node* node, Reading& reading);
+/// `refine:` of the grid, a list of rules.
+void read_refine(Block& grid, Reading& reading);
+/// What levels of cells do not go with; after all blocks.
+void check_refine(Reading& reading);
 Node read_time(const Node* node, Reading& reading);
 Node read_method(const Node* node, Reading& reading);
 Node read_output(const Node* node, Reading& reading);
@@ -98,6 +102,9 @@ std::optional<Triple> read_vector(const Node& node, const char* unit, Reading& r
 std::optional<Triple> read_position(const Node& node, Reading& reading);
 /// The same along the grid axes.
 std::optional<Triple> read_place(const Node& node, Reading& reading);
+/// `min` and `max` of a box along the grid axes. Corners with two components are (r or x, z); in 3d
+/// the box is then as wide across y as across x.
+std::optional<Box> read_corners(Block& block, Reading& reading);
 
 /// A vector field along the grid axes: numbers with units or expressions. `field` is null where it
 /// is zero everywhere.

@@ -95,6 +95,7 @@ class MpmStep final : public Kinematics {
   }
   /// How points of each body are made: what splitting goes by.
   void set_sizes(std::vector<PointSize> by_body) { sizes_ = std::move(by_body); }
+  std::vector<PointSize>& sizes() { return sizes_; }
   const std::vector<PointSize>& sizes() const { return sizes_; }
   /// After a fault: points under way between blocks go where they belong.
   void deliver_leavers() { deliver(grid_, bodies_, sizes_); }

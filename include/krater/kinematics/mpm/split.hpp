@@ -19,6 +19,7 @@
 #include <array>
 #include <vector>
 
+#include "krater/contact/options.hpp"
 #include "krater/grid/levels.hpp"
 #include "krater/points/columns.hpp"
 
@@ -41,8 +42,9 @@ struct Arrival {
 };
 
 /// Adds the parts of a point that lies in cells of `level` and came from those of `from`, or the
-/// point itself; returns how much more kinetic energy they have by definition [J].
+/// point itself; returns how much more kinetic energy they have by definition [J]. `half_width`: of
+/// the space that the point fills, where that is known; by its size otherwise.
 double arrive(const Levels& levels, const PointColumns& columns, PointSize& size, int from,
-              Arrival point, std::vector<Arrival>& out);
+              Arrival point, std::vector<Arrival>& out, const Triple* half_width = nullptr);
 
 }  // namespace krater

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// grid.refine: where cells are finer.
+#include <algorithm>
+
+#include "krater/grid/levels.hpp"
+#include "scene/readers/readers.hpp"
+
+namespace krater::scene {
+
+namespace {
+
+constexpr ParameterInfo kMargin{"margin", "m", Range::non_negative, kRequired,
+                                "how far around the body cells are finer"};
+constexpr const char* kExample =
+    "a list of rules such as {region: {box: {min: [0, 0], max: [8 mm, 4 mm]}}, level: 1} or "
+    "{follow: BODY, margin: 3 mm, level: 2}";
+
+/// A box of the section, or any shape.
+void read_region(const Node& node, RefineOptions& rule, Reading& reading) {
+  if (const Node* box = node.find("box")) {
+    Block block{box, box->path, *box, reading.problems};
+    rule.box = read_corners(block, reading);
+    block.finish();
+    return;
+  }
+  rule.region = read_solid(node, reading).solid;
+}
+
+RefineOptions read_rule(const Node& node, Reading& reading, Node& resolved) {
+  Block block{&node, node.path, node, reading.problems};
+  RefineOptions rule;
+  rule.where = block.place().where();
+  rule.level = block.integer("level", 1, kMostLevels, 1);
+  const Node* region = block.find("region");
+  const Node* follow = block.find("follow");
+  if ((region != nullptr) == (follow != nullptr)) {
+    block.fail("expected one of region and follow: where cells are finer, or around which body");
+  } else if (region != nullptr) {
+    read_region(*region, rule, reading);
+    block.record("region", *region);
+  } else {
+    if (const auto name = read_word(*follow, reading.problems)) rule.follow_name = *name;
+    block.record("follow", string_node(rule.follow_name));
+    rule.margin = block.number(kMargin);
+  }
+  resolved = block.finish();
+  return rule;
+}
+
+void refuse(const RefineOptions& rule, const std::string& message, Reading& reading) {
+  const Node* grid = reading.root.find("grid");
+  const Node* list = grid != nullptr ? grid->find("refine") : nullptr;
+  const auto index = static_cast<std::size_t>(&rule - reading.scene.grid.refine.data());
+  const Node& at = list != nullptr && index < list->items.size() ? list->items[index]
+                                                                 : reading.root;
+  reading.problems.add(at.file, at.line, "grid.refine", message);
+}
+
+/// What the methods of a scene would have to know of levels, and do not.
+std::string what_is_not_ready(const Scene& scene) {
+  const MethodOptions& m = scene.method;
+  if (m.shape != Shape::quadratic_bspline)
+    return "finer cells need method.shape: quadratic_bspline: only its functions nest";
+  if (m.reference != Reference::current)
+    return "finer cells need method.reference: current; points of a fixed reference never leave "
+           "their cells, so that method.points_per_direction refines there";
+  if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
+    return "finer cells need contact.normal: volume_gradient";
+  for (const BodyOptions& body : scene.bodies) {
+    if (!body.material_points())
+      return "finer cells are for bodies of material points; body " + quote(body.name) +
+             " is none: its own mesh or spacing is what refines it";
+    for (int a = 0; a < dimension(scene.frame); ++a)
+      if (body.points.per_direction[static_cast<std::size_t>(a)] % 2 != 0)
+        return "finer cells need an even number of points per direction, for one in the middle of "
+               "a cell lies on the edge of finer ones; bodies." +
+               body.name + " has " +
+               std::to_string(body.points.per_direction[static_cast<std::size_t>(a)]);
+  }
+  return "";
+}
+
+}  // namespace
+
+void read_refine(Block& grid, Reading& reading) {
+  const Node* list = grid.find("refine");
+  if (list == nullptr) return;
+  if (list->kind != Node::Kind::list) {
+    grid.fail(*list, std::string{"expected "} + kExample);
+    return;
+  }
+  std::vector<Node> resolved(list->items.size());
+  for (std::size_t i = 0; i < list->items.size(); ++i)
+    reading.scene.grid.refine.push_back(read_rule(list->items[i], reading, resolved[i]));
+  grid.record("refine", list_node(resolved));
+}
+
+void check_refine(Reading& reading) {
+  Scene& scene = reading.scene;
+  if (scene.grid.refine.empty()) return;
+  if (const std::string text = what_is_not_ready(scene); !text.empty())
+    refuse(scene.grid.refine.front(), text, reading);
+  const Box domain{scene.grid.min, scene.grid.max};
+  const int dim = dimension(scene.frame);
+  for (RefineOptions& rule : scene.grid.refine) {
+    const std::optional<Box> extent =
+        rule.region ? std::optional{rule.region->extent(scene.frame)} : rule.box;
+    if (extent && is_empty(intersection(*extent, domain, dim), dim))
+      refuse(rule, "the region lies outside the domain (grid.box)", reading);
+    if (rule.follow_name.empty()) continue;
+    std::vector<std::string> names;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      names.push_back(scene.bodies[b].name);
+      if (names.back() == rule.follow_name) rule.follow = static_cast<int>(b);
+    }
+    if (rule.follow < 0)
+      refuse(rule, "follow: there is no body " + quote(rule.follow_name), reading);
+  }
+}
+
+}  // namespace krater::scene

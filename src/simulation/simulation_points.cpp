@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The material points of the start: each body's lattice is that of the coarsest cells in which some
+// of it lies; what lies in finer ones is split as it would be if it came there
+// (kinematics/mpm/split.hpp).
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "krater/core/errors.hpp"
+#include "krater/simulation/point_maker.hpp"
+#include "krater/simulation/refinement.hpp"
+#include "krater/simulation/simulation.hpp"
+
+namespace krater {
+
+int Simulation::coarsest_level(int body) {
+  const Levels& levels = grid_.levels();
+  if (levels.single()) return 0;
+  int level = levels.count() - 1;
+  for (const SeedPoint& seed : bodies_[static_cast<std::size_t>(body)]->lattice(scene_, 0))
+    level = std::min(level, levels.block_at(seed.x.data()).level);
+  return level;
+}
+
+double Simulation::place_body(int b) {
+  Body& body = *bodies_[static_cast<std::size_t>(b)];
+  const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
+  PointSize& size = step_->sizes()[static_cast<std::size_t>(b)];
+  const int from = coarsest_level(b), finest = grid_.levels().count() - 1;
+  const std::vector<SeedPoint> seeds = body.seeds(scene_, from);
+  size.next_id = static_cast<double>(seeds.size());
+  PointMaker maker{scene_, b, body};
+  std::map<BlockKey, std::size_t> where;
+  std::vector<Arrival> parts;
+  double smallest = 0;
+  for (std::size_t id = 0; id < seeds.size(); ++id) {
+    std::vector<double>& record = maker.make(seeds[id], id);
+    if (detonation_.burns(b))
+      record[static_cast<std::size_t>(body.slot(field::SinceLighting::info))] =
+          detonation_.since_lighting(b, seeds[id].x);
+    parts.clear();
+    const BlockKey owner = grid_.levels().block_at(seeds[id].x.data());
+    if (owner.level <= from)
+      parts.push_back({owner, b, record});
+    else
+      arrive(grid_.levels(), columns, size, from, {owner, b, record}, parts,
+             &seeds[id].half_width);
+    for (const Arrival& part : parts) {
+      const auto [at, is_new] = where.try_emplace(part.key, grid_.patches().size());
+      if (is_new) grid_.add_patch(part.key, b, columns.stride);
+      grid_.patches()[at->second].append(part.record.data());
+    }
+    const double m = body.material().density * seeds[id].measure;
+    smallest = smallest > 0 ? std::min(smallest, m) : m;
+  }
+  // what splitting may still make of them
+  return smallest * std::pow(corner_count(geometry_.dimension), from - finest);
+}
+
+void Simulation::place_points() {
+  std::vector<PointSize> sizes;
+  for (const auto& body : bodies_)
+    sizes.push_back({body->material().density, body->options().points.per_direction,
+                     scene_.frame == Frame::axisymmetric, 0});
+  step_->set_sizes(std::move(sizes));
+  double smallest = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (bodies_[b]->options().material_points()) {
+      const double m = place_body(static_cast<int>(b));
+      smallest = smallest > 0 ? std::min(smallest, m) : m;
+    }
+  detonation_.require_all_lit();
+  for (Patch& p : grid_.patches())
+    p.points.pad(kernel_data_[static_cast<std::size_t>(p.body)].columns.mass);
+  grid_.rebuild(true);
+  step_->set_smallest_mass(smallest);
+  step_->relink();
+}
+
+}  // namespace krater
