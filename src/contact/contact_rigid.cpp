@@ -32,7 +32,8 @@ ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& gro
     for (double& n : out.normal) n = -n;
   for (int axis = geometry_.dimension - 1, rest = contact.node; axis >= 0; --axis, rest /= edge_) {
     const auto k = static_cast<unsigned>(axis);
-    out.place[k] = geometry(a.key.level).place(a.key.i[k] * edge_ + rest % edge_, static_cast<int>(k));
+    out.place[k] =
+        geometry(a.key.level).place(a.key.i[k] * edge_ + rest % edge_, static_cast<int>(k));
   }
   return out;
 }

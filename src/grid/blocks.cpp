@@ -111,6 +111,25 @@ void BlockGrid::rebuild(bool drop_empty) {
   link_patches();
 }
 
+/// Blocks about those of masters where cells are finer: contact looks at their volumes.
+template <class Add>
+void BlockGrid::add_shadows(const Add& add) {
+  const int dimension = geometry().dimension;
+  const std::vector<NodeBlock> there = node_blocks_;
+  node_index_.grow(there.size() * static_cast<std::size_t>(1 + neighbour_count(dimension)));
+  const auto under_finer = [&](const BlockKey& key) {
+    for (int c = 0; c < corner_count(dimension); ++c)
+      if (levels_.is_refined(at_corner(key, c, -1, dimension))) return true;
+    return false;
+  };
+  for (const NodeBlock& block : there) {
+    if (!under_finer(block.key)) continue;
+    for (int s = 0; s < neighbour_count(dimension); ++s)
+      if (const BlockKey key = shifted(block.key, s, dimension); under_finer(key))
+        add(key, block.field);
+  }
+}
+
 void BlockGrid::make_node_blocks() {
   const int dimension = geometry().dimension, corners = corner_count(dimension);
   node_blocks_.clear();
@@ -136,6 +155,7 @@ void BlockGrid::make_node_blocks() {
       for (int c = 0; c < corners; ++c)
         if (const auto key = master_block(block.key, c, dimension)) add(*key, block.field);
     }
+    if (shadows_) add_shadows(add);
   }
   std::sort(node_blocks_.begin(), node_blocks_.end(), [](const NodeBlock& a, const NodeBlock& b) {
     return a.key != b.key ? a.key < b.key : a.field < b.field;

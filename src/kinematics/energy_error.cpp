@@ -35,7 +35,7 @@ struct Part {
 };
 
 /// In the order of Audit::unphysical().
-std::array<Part, 5> parts(const Audit& a) {
+std::array<Part, 4> parts(const Audit& a) {
   return {
       {{"energy_residual", "energy that is missing or came from nowhere: please report this scene"},
        {"numerical_heat",
@@ -46,16 +46,13 @@ std::array<Part, 5> parts(const Audit& a) {
         "heat that matter was too cold to give: a viscosity block, a smaller time.cfl, or "
         "method.transfer: tflip lowers it"},
        {"rigid_loss",
-        "of rigid bodies by the steps of their turn: a smaller time.max_step lowers it"},
-       {"level_change",
-        "what is kinetic energy by the size of the cells, where points came among others: a finer "
-        "grid.cell, or an edge of grid.refine where less passes"}}};
+        "of rigid bodies by the steps of their turn: a smaller time.max_step lowers it"}}};
 }
 
 }  // namespace
 
 std::string describe_energy_error(const Audit& audit, double allowed) {
-  const std::array<double, 5> values = audit.unphysical();
+  const std::array<double, 4> values = audit.unphysical();
   const auto most = std::max_element(values.begin(), values.end(),
                                      [](double x, double y) { return std::abs(x) < std::abs(y); });
   const Part part = parts(audit)[static_cast<std::size_t>(most - values.begin())];

@@ -194,8 +194,7 @@ std::vector<SeedPoint> Body::seeds(const Scene& scene, int level) {
 }
 
 /// One cell cannot bend, shear or show a wave: what it does is not the material's doing.
-void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds,
-                             double cell) {
+void Body::examine_thickness(const Scene& scene, const std::vector<SeedPoint>& seeds, double cell) {
   constexpr double kThinShare = 0.2, kToldShare = 0.05;
   MirrorSides mirrors{};
   for (std::size_t a = 0; a < 3; ++a)

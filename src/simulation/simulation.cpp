@@ -113,7 +113,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) fields.push_back(own_field(b));
     grid_.set_fields(std::move(fields));
   }
-  if (!scene.grid.refine.empty()) grid_.set_levels(refined_regions(scene, geometry_));
+  if (scene.contact.active) grid_.keep_shadows();
+  find_levels();
   watch_impulses();
   loads_ = make_loads();
   step_ = std::make_unique<MpmStep>(
@@ -294,6 +295,8 @@ void Simulation::step(double until) {
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
+  if (refinement_ && refinement_->moves() && steps() % kRegridSteps == 0)
+    step_->regrid(refinement_->find(grid_));
   find_limit();
   if (mesh_) adopt_converted();
   try {

@@ -172,8 +172,8 @@ double Simulation::energy_per_mass(int s, int point) const {
     }
   } else {
     const PointColumns& c = kernel_data_[static_cast<std::size_t>(set(s).body)].columns;
-    energy =
-        point_kinetic(set(s).points->point(point), c, geometry_of(s)) / value(s, point, c.mass / kLanes);
+    energy = point_kinetic(set(s).points->point(point), c, geometry_of(s)) /
+             value(s, point, c.mass / kLanes);
   }
   const int e = body.slot(field::InternalEnergy::info);
   return e < 0 ? energy : energy + value(s, point, e);

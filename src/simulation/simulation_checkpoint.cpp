@@ -123,6 +123,7 @@ void Simulation::save_levels(Checkpoint& out) const {
     map.push_back(key.level);
   }
   out.blobs.push_back(integers("levels/refined", std::move(map)));
+  out.blobs.push_back(integers("levels/rules", refinement_->state()));
   std::vector<double> ids;
   for (const PointSize& size : step_->sizes()) ids.push_back(size.next_id);
   out.blobs.push_back(numbers("levels/next_ids", std::move(ids)));
@@ -143,6 +144,7 @@ void Simulation::restore_levels(const Checkpoint& checkpoint) {
     refined.insert(key);
   }
   grid_.set_levels(std::move(refined));
+  refinement_->restore(demand(checkpoint, "levels/rules").integers);
   const auto& ids = demand(checkpoint, "levels/next_ids").doubles;
   for (std::size_t b = 0; b < step_->sizes().size() && b < ids.size(); ++b)
     step_->sizes()[b].next_id = ids[b];

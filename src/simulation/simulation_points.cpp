@@ -13,6 +13,19 @@
 
 namespace krater {
 
+void Simulation::find_levels() {
+  if (scene_.grid.refine.empty()) return;
+  refinement_ = std::make_unique<Refinement>(scene_, geometry_, bodies_);
+  std::vector<BlockSet> blocks(bodies_.size());
+  for (const RefineOptions& rule : scene_.grid.refine) {
+    if (rule.follow < 0) continue;
+    const auto b = static_cast<std::size_t>(rule.follow);
+    for (const SeedPoint& seed : bodies_[b]->lattice(scene_, 0))
+      blocks[b].insert(block_of(geometry_, seed.x.data()));
+  }
+  grid_.set_levels(refinement_->at_start(blocks));
+}
+
 int Simulation::coarsest_level(int body) {
   const Levels& levels = grid_.levels();
   if (levels.single()) return 0;
@@ -43,8 +56,7 @@ double Simulation::place_body(int b) {
     if (owner.level <= from)
       parts.push_back({owner, b, record});
     else
-      arrive(grid_.levels(), columns, size, from, {owner, b, record}, parts,
-             &seeds[id].half_width);
+      arrive(grid_.levels(), columns, size, from, {owner, b, record}, parts, &seeds[id].half_width);
     for (const Arrival& part : parts) {
       const auto [at, is_new] = where.try_emplace(part.key, grid_.patches().size());
       if (is_new) grid_.add_patch(part.key, b, columns.stride);

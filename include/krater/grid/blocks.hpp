@@ -170,6 +170,8 @@ class BlockGrid {
   Patch& add_patch(const BlockKey& key, int body, int stride);
   /// Drop the patches of a body, or all of them; rebuild() afterwards.
   void drop_patches(int body = -1);
+  /// Node blocks whose volumes contact reads near finer cells are there too. Before rebuild().
+  void keep_shadows() { shadows_ = true; }
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
   void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
   int find_patch(const BlockKey& key, int body) const;            ///< -1: none
@@ -184,6 +186,8 @@ class BlockGrid {
 
  private:
   void make_node_blocks();
+  template <class Add>
+  void add_shadows(const Add& add);
   void link_patches();
 
   Levels levels_;
@@ -191,6 +195,7 @@ class BlockGrid {
   std::vector<NodeBlock> node_blocks_;
   std::vector<TileRef> tile_refs_;
   std::vector<FieldId> field_of_body_;
+  bool shadows_ = false;
   KeyIndex patch_index_, node_index_;
   AlignedBuffer node_memory_;
 };

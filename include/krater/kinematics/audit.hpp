@@ -68,7 +68,7 @@ struct Audit {
   double peak_energy_time = 0;  ///< its integral over time [J s]
   double stabilisation = 0;     ///< heat of what holds zero-energy modes of particles [J]
   double conversion_heat = 0;   ///< of the motion of elements that became points [J]
-  double level_change = 0;      ///< kinetic energy of points among other cells, by definition [J]
+  double level_heat = 0;        ///< of points that changed the level of their cells [J]
   double split_points = 0;      ///< points that splitting made
   double most_folded = 0;       ///< folded elements, the most at a row of the history
 
@@ -106,6 +106,13 @@ struct Audit {
     internal += heat;
     if (is_unfelt) unfelt += heat;
   }
+  /// The same of points that came among other cells.
+  void book_level(double heat, double unfelt_heat) {
+    level_heat += heat;
+    kinetic -= heat;
+    internal += heat;
+    unfelt += unfelt_heat;
+  }
   /// Energy and momentum that left with removed points.
   void book_removed(const Removed& gone);
 
@@ -113,17 +120,17 @@ struct Audit {
   /// [J].
   double residual(double measured_kinetic, double measured_internal) const {
     return (measured_kinetic + measured_internal) - (initial_kinetic + initial_internal) -
-           external_work - wall_work + removed_energy + rigid_loss - level_change;
+           external_work - wall_work + removed_energy + rigid_loss;
   }
   /// What is not physical: energy that is missing or came from nowhere, heat that the pressure of
-  /// its matter cannot feel (but for friction between bodies), heat that is owed, the steps of
-  /// turning rigid bodies, and what a change of cells calls kinetic energy. Heat of transfer, contact and walls in matter that knows its energy is
+  /// its matter cannot feel (but for friction between bodies), heat that is owed, and the steps of
+  /// turning rigid bodies. Heat of transfer, contact and walls in matter that knows its energy is
   /// none of it: behind a shock the balances of mass, momentum and energy say how much there must
   /// be, however it was made.
-  std::array<double, 5> unphysical() const {
+  std::array<double, 4> unphysical() const {
     const double useless =
         numerical_heat > 0 ? std::max(0.0, numerical_heat + friction_work) : numerical_heat;
-    return {residual(kinetic, internal), useless, carried, rigid_loss, level_change};
+    return {residual(kinetic, internal), useless, carried, rigid_loss};
   }
   /// All of it as magnitudes, by the greatest energy that was in the scene so far: at the start, or
   /// brought by loads and sides.
@@ -193,7 +200,7 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("peak_energy_time", a.peak_energy_time);
   visit("stabilisation", a.stabilisation);
   visit("conversion_heat", a.conversion_heat);
-  visit("level_change", a.level_change);
+  visit("level_heat", a.level_heat);
   visit("split_points", a.split_points);
   visit("most_folded", a.most_folded);
 }

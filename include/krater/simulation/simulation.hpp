@@ -17,6 +17,7 @@
 #include "krater/output/results.hpp"
 #include "krater/simulation/body.hpp"
 #include "krater/simulation/detonation.hpp"
+#include "krater/simulation/refinement.hpp"
 #include "krater/simulation/warnings.hpp"
 
 namespace krater {
@@ -150,6 +151,7 @@ class Simulation {
   Totals totals_of_set(int s) const;
   void save_levels(Checkpoint& out) const;
   void restore_levels(const Checkpoint& checkpoint);
+  void find_levels();
   void place_points();
   double place_body(int body);  ///< smallest mass of a point that it may come to [kg]
   int coarsest_level(int body);
@@ -179,6 +181,7 @@ class Simulation {
   std::vector<std::unique_ptr<Body>> bodies_;
   std::vector<BodyKernelData> kernel_data_;
   BlockGrid grid_;
+  std::unique_ptr<Refinement> refinement_;  ///< null: one level
   BoundarySet boundary_;
   ContactSet contact_;
   RigidBodies rigid_;

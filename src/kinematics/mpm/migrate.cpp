@@ -221,6 +221,15 @@ Removed collect_leavers(Patch& patch, const Levels& levels, const BoundarySet& b
   return removed;
 }
 
+void send_away(Patch& patch, const Levels& levels, const PointColumns& columns) {
+  for (int i = 0; i < patch.points.count(); ++i) {
+    patch.points.copy_out(i, patch.outbox.other_level);
+    patch.outbox.keys.push_back(places_of_point(patch, levels, columns, i).owner);
+  }
+  patch.points.truncate(0);
+  patch.touch();
+}
+
 /// Patches without points go; true: there were some.
 bool drop_empty(BlockGrid& grid) {
   const auto& all = grid.patches();
@@ -243,9 +252,11 @@ std::vector<Arrival> find_arrivals(BlockGrid& grid, const std::vector<BodyKernel
     for (std::size_t k = 0; k < box.keys.size(); ++k) {
       const auto from = box.other_level.begin() + static_cast<std::ptrdiff_t>(k) * width;
       const std::size_t before = arrivals.size();
-      out.kinetic +=
+      const double heat =
           arrive(grid.levels(), columns, sizes[static_cast<std::size_t>(patch.body)],
                  patch.key.level, {box.keys[k], patch.body, {from, from + width}}, arrivals);
+      out.heat += heat;
+      if (bodies[static_cast<std::size_t>(patch.body)].heat_floor == nullptr) out.unfelt += heat;
       out.made += static_cast<double>(arrivals.size() - before - 1);
       const int finer = box.keys[k].level - patch.key.level;
       out.finer_rate = std::max(out.finer_rate, std::ldexp(patch.result.max_rate, finer));

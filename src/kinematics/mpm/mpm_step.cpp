@@ -40,7 +40,13 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
       boundary_{parts.boundary},
       contact_{parts.contact},
       rigid_{parts.rigid},
-      ties_{parts.grid, parts.boundary},
+      ties_{parts.grid, parts.boundary,
+            parts.contact.active()
+                ? WholeVolume{[&contact = parts.contact](const GridGeometry& g,
+                                                         const std::array<int, 3>& index) {
+                    return contact.whole_volume(g, index);
+                  }}
+                : WholeVolume{}},
       kernels_{parts.kernels},
       plain_{parts.plain},
       bodies_{parts.bodies},
@@ -138,6 +144,7 @@ MpmStep::Constraints MpmStep::constrain(bool projection) {
 
 ContactWork MpmStep::meet_bodies(bool projection) {
   if (reference_contact_) return reference_contact_->apply();
+  ties_.complete_volumes();
   return contact_.apply(grid_, columns_, rigid_, projection);
 }
 
@@ -378,11 +385,8 @@ void MpmStep::migrate() {
   if (impulses_.any()) note_put_back();
   const std::vector<int> losing = rigid_losses();
   const Delivered delivered = deliver(grid_, bodies_, sizes_);
+  book_delivered(delivered);
   bool changed = delivered.changed;
-  audit_.kinetic += delivered.kinetic;
-  audit_.level_change += delivered.kinetic;
-  audit_.split_points += delivered.made;
-  limit_.rate = std::max(limit_.rate, delivered.finer_rate);
   for (const int b : losing)  // what is left moves on as it did
     rigid_.find(b)->lose(grid_, bodies_[static_cast<std::size_t>(b)].columns);
   if (method_.reference == Reference::adaptive) changed = renew_references() || changed;
@@ -390,6 +394,23 @@ void MpmStep::migrate() {
     relink();
   else
     provide_memory();  // patches may have grown
+  lap(Phase::migrate);
+}
+
+void MpmStep::book_delivered(const Delivered& delivered) {
+  audit_.book_level(delivered.heat, delivered.unfelt);
+  audit_.split_points += delivered.made;
+  limit_.rate = std::max(limit_.rate, delivered.finer_rate);
+}
+
+void MpmStep::regrid(BlockSet refined) {
+  if (!grid_.set_levels(std::move(refined))) return;
+  for (Patch& patch : grid_.patches())
+    if (!grid_.levels().holds(patch.key) || grid_.levels().is_refined(patch.key))
+      send_away(patch, grid_.levels(), bodies_[static_cast<std::size_t>(patch.body)].columns);
+  book_delivered(deliver(grid_, bodies_, sizes_));
+  grid_.rebuild(true);
+  relink();
   lap(Phase::migrate);
 }
 

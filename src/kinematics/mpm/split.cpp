@@ -48,8 +48,8 @@ std::vector<Offset> offsets(std::vector<double>& record, const PointColumns& c, 
       double sum = 0;
       for (int b = 0; b < dim; ++b) {
         const int row = dim == 2 ? 2 * a : a, column = dim == 2 ? 2 * b : b;
-        sum += entry(record, c.deformation, 3 * row + column) *
-               d.before[static_cast<std::size_t>(b)];
+        sum +=
+            entry(record, c.deformation, 3 * row + column) * d.before[static_cast<std::size_t>(b)];
       }
       d.now[static_cast<std::size_t>(a)] = std::clamp(sum, -most, most);
     }
@@ -127,9 +127,13 @@ double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int 
     for (int a = 0; a < dim; ++a) x[a] = entry(part.record, c.position, a);
     part.key = levels.block_at(x);
     after += kinetic_of(part.record, c, levels.geometry(part.key.level).h, dim);
+  }
+  const double heat = half_width == nullptr ? before - after : 0;
+  for (Arrival& part : parts) {
+    entry(part.record, heat < 0 && c.carried >= 0 ? c.carried : c.energy) += heat / m;
     out.push_back(std::move(part));
   }
-  return after - before;
+  return heat;
 }
 
 }  // namespace krater

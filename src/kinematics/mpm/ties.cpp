@@ -13,6 +13,16 @@ namespace {
 constexpr int kNone = -1, kImage = -2;
 constexpr std::size_t kFew = 64;  ///< nodes that are not worth a second thread
 
+/// Storage index of a node in memory.
+std::array<int, 3> index_in(const NodeBlock& block, std::size_t n, int dimension) {
+  const int edge = block_edge(dimension);
+  std::array<int, 3> index{};
+  for (int a = dimension - 1, rest = static_cast<int>(n % kBlockNodes); a >= 0; --a, rest /= edge)
+    index[static_cast<std::size_t>(a)] =
+        block.key.i[static_cast<std::size_t>(a)] * edge + rest % edge;
+  return index;
+}
+
 }  // namespace
 
 double Ties::weight(const Tied& tied, int corner) const {
@@ -46,6 +56,7 @@ void Ties::relink() {
     range.end = tied_.size();
   }
   link_masters();
+  if (whole_volume_) link_parents();
 }
 
 void Ties::add_tied(const NodeBlock& block, int node) {
@@ -60,6 +71,7 @@ void Ties::add_tied(const NodeBlock& block, int node) {
     if (index[k] != 2 * coarse[k]) tied.odd |= 1U << a;
   }
   tied.node = node_at(index, block.field, level);
+  if (whole_volume_) tied.whole = whole_volume_(g, index);
   tied.masters.fill(kNone);
   for (int c = 0; c < corner_count(g.dimension); ++c) {
     std::array<int, 3> master = coarse;
@@ -111,6 +123,9 @@ void Ties::link_masters() {
     master.node = static_cast<std::int32_t>(n);
     master.level = block.key.level;
     master.first = first;
+    if (whole_volume_)
+      master.whole = whole_volume_(grid_.geometry(block.key.level),
+                                   index_in(block, n, grid_.geometry().dimension));
     first += count;
     range.end = masters_.size();
   }
@@ -161,6 +176,7 @@ void Ties::pull(Master& master, double h) {
   const int dimension = grid_.geometry().dimension;
   double* to = record(master.node);
   master.own = to[summed::mass];
+  master.own_volume = to[summed::volume];
   master.from_slopes = {};
   for (std::int32_t k = master.first; k < master.first + master.count; ++k) {
     const auto [t, corner] = shares_[static_cast<std::size_t>(k)];

@@ -13,7 +13,7 @@ constexpr ParameterInfo kMargin{"margin", "m", Range::non_negative, kRequired,
                                 "how far around the body cells are finer"};
 constexpr const char* kExample =
     "a list of rules such as {region: {box: {min: [0, 0], max: [8 mm, 4 mm]}}, level: 1} or "
-    "{follow: BODY, margin: 3 mm, level: 2}";
+    "{follow: BODY, margin: 3 mm, level: 2} or {where: {field: plastic_strain, above: 0.1}}";
 
 /// A box of the section, or any shape.
 void read_region(const Node& node, RefineOptions& rule, Reading& reading) {
@@ -26,6 +26,26 @@ void read_region(const Node& node, RefineOptions& rule, Reading& reading) {
   rule.region = read_solid(node, reading).solid;
 }
 
+Node read_where(const Node& node, RefineOptions& rule, Reading& reading) {
+  Block block{&node, node.path, node, reading.problems};
+  const Node* field = block.require("field", "a scalar of the points, as plastic_strain");
+  if (field == nullptr) return block.finish();
+  if (const auto name = read_word(*field, reading.problems)) rule.field = *name;
+  const std::vector<FieldName>& known = known_fields();
+  const auto at = std::find_if(known.begin(), known.end(),
+                               [&rule](const FieldName& f) { return rule.field == f.name; });
+  std::vector<std::string> names;
+  for (const FieldName& f : known) names.emplace_back(f.name);
+  if (at == known.end()) {
+    report_unknown(*field, "field", rule.field, names, reading.problems);
+    block.find("above");
+    return block.finish();
+  }
+  block.record("field", string_node(rule.field));
+  rule.above = block.number({"above", at->unit, Range::any, kRequired, "threshold of the field"});
+  return block.finish();
+}
+
 RefineOptions read_rule(const Node& node, Reading& reading, Node& resolved) {
   Block block{&node, node.path, node, reading.problems};
   RefineOptions rule;
@@ -33,8 +53,12 @@ RefineOptions read_rule(const Node& node, Reading& reading, Node& resolved) {
   rule.level = block.integer("level", 1, kMostLevels, 1);
   const Node* region = block.find("region");
   const Node* follow = block.find("follow");
-  if ((region != nullptr) == (follow != nullptr)) {
-    block.fail("expected one of region and follow: where cells are finer, or around which body");
+  const Node* where = block.find("where");
+  if ((region != nullptr) + (follow != nullptr) + (where != nullptr) != 1) {
+    block.fail("expected one of region, follow and where: " + std::string{kExample});
+    if (follow != nullptr) block.find("margin");
+  } else if (where != nullptr) {
+    block.record("where", read_where(*where, rule, reading));
   } else if (region != nullptr) {
     read_region(*region, rule, reading);
     block.record("region", *region);
@@ -51,8 +75,8 @@ void refuse(const RefineOptions& rule, const std::string& message, Reading& read
   const Node* grid = reading.root.find("grid");
   const Node* list = grid != nullptr ? grid->find("refine") : nullptr;
   const auto index = static_cast<std::size_t>(&rule - reading.scene.grid.refine.data());
-  const Node& at = list != nullptr && index < list->items.size() ? list->items[index]
-                                                                 : reading.root;
+  const Node& at =
+      list != nullptr && index < list->items.size() ? list->items[index] : reading.root;
   reading.problems.add(at.file, at.line, "grid.refine", message);
 }
 

@@ -18,10 +18,14 @@ namespace krater {
 Removed collect_leavers(Patch& patch, const Levels& levels, const BoundarySet& boundary,
                         const PointColumns& columns, const unsigned char* leavers);
 
+/// All points of a patch that has no place in the levels any more, into its outbox.
+void send_away(Patch& patch, const Levels& levels, const PointColumns& columns);
+
 /// What the outboxes led to.
 struct Delivered {
   bool changed = false;   ///< the topology: relink!
-  double kinetic = 0;     ///< of points that changed their level, by definition (split.hpp) [J]
+  double heat = 0;        ///< of points that changed their level (split.hpp) [J]
+  double unfelt = 0;      ///< of it, in matter whose pressure does not know its energy
   double made = 0;        ///< points, by splitting
   double finer_rate = 0;  ///< 1/dt at CFL 1 that points may have among finer cells [1/s]
 };

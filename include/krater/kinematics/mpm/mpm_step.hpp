@@ -97,6 +97,9 @@ class MpmStep final : public Kinematics {
   void set_sizes(std::vector<PointSize> by_body) { sizes_ = std::move(by_body); }
   std::vector<PointSize>& sizes() { return sizes_; }
   const std::vector<PointSize>& sizes() const { return sizes_; }
+  /// Another map of the levels: points move to their new blocks, and are split where these are
+  /// finer.
+  void regrid(BlockSet refined);
   /// After a fault: points under way between blocks go where they belong.
   void deliver_leavers() { deliver(grid_, bodies_, sizes_); }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
@@ -160,6 +163,7 @@ class MpmStep final : public Kinematics {
   void provide_memory();
   void throw_faults() const;
   void migrate();
+  void book_delivered(const Delivered& delivered);
   bool renew_references();
   void measure_gaps();
   CutCells cut_cells(int axis, int side, const GridGeometry& geometry) const;

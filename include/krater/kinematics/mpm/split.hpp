@@ -13,9 +13,11 @@
 /// above.
 ///
 /// Kinetic energy with its affine part (h_l^2/4 per axis, as all sums count it) is one of the
-/// level: where a point changes it, whole or split, the difference is a matter of definition,
-///   m/2 L:L (h_to^2 - h_from^2)/4 + m/2 sum w |L d|^2,
-/// and is booked as such (Audit::level_change).
+/// level. Where a point changes it, whole or in parts,
+///   -dT = m/2 L:L (h_from^2 - h_to^2)/4 - m/2 sum w |L (d - sum w d)|^2
+/// becomes its heat: the coarser cells would have made heat of it when L fades. What is missing on
+/// the way to coarser cells is a debt (kinematics/mpm/ledger.hpp), in matter whose pressure does not
+/// know its energy taken from it.
 #include <array>
 #include <vector>
 
@@ -42,8 +44,8 @@ struct Arrival {
 };
 
 /// Adds the parts of a point that lies in cells of `level` and came from those of `from`, or the
-/// point itself; returns how much more kinetic energy they have by definition [J]. `half_width`: of
-/// the space that the point fills, where that is known; by its size otherwise.
+/// point itself; returns what became heat [J]. `half_width`: of
+/// the space that the point fills, at the start, when nothing becomes heat; by its size otherwise.
 double arrive(const Levels& levels, const PointColumns& columns, PointSize& size, int from,
               Arrival point, std::vector<Arrival>& out, const Triple* half_width = nullptr);
 

@@ -25,10 +25,16 @@
 /// apic and xpic add |v-|^2 to k, whose sum must be that of v- . p over what was scattered; a master
 /// then counts |v-|^2 - v- . g/D, g what slopes added to its momentum.
 ///
+/// Contact looks for where bodies meet in the volumes of nodes, and there a node must have what a
+/// uniform grid of its level would see: coarse nodes that of all their children, free ones too,
+/// tied nodes their own and their share of the coarse points, V_n = V_raw + W_n sum_J P_nJ V_J/W_J,
+/// with W the volume that a function covers.
+///
 /// Sums are pulled by the masters in the order of the tied nodes: the bits do not depend on threads.
 #include <array>
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "krater/contact/boundary.hpp"
@@ -37,9 +43,14 @@
 
 namespace krater {
 
+/// The volume that the function of a node covers in the domain, by its storage index.
+using WholeVolume = std::function<double(const GridGeometry&, const std::array<int, 3>&)>;
+
 class Ties {
  public:
-  Ties(BlockGrid& grid, const BoundarySet& boundary) : grid_{grid}, boundary_{boundary} {}
+  /// `whole_volume`: none without contact.
+  Ties(BlockGrid& grid, const BoundarySet& boundary, WholeVolume whole_volume)
+      : grid_{grid}, boundary_{boundary}, whole_volume_{std::move(whole_volume)} {}
 
   /// Find tied nodes and masters, and mark their blocks; after BlockGrid::rebuild().
   void relink();
@@ -51,6 +62,8 @@ class Ties {
   void sharpen(const std::vector<MomentumSettings>& by_level);
   /// The step was shortened after sharpen().
   void shorten(double share);
+  /// Volumes as contact reads them; while nodes hold [v+, m, dv, V].
+  void complete_volumes();
   /// v+, dv and the mass that points see, of the tied nodes of a level; the ghosts of the level
   /// above are mirrored before.
   void prolong(int level);
@@ -66,7 +79,8 @@ class Ties {
     std::array<std::int32_t, 6> beside;
     std::array<double, 8> sums;  ///< raw, of the step
     std::array<double, 9> slope;
-    Triple change;  ///< dv in a sweep
+    Triple change;     ///< dv in a sweep
+    double whole = 1;  ///< W
   };
   struct Share {
     std::int32_t tied;
@@ -75,8 +89,14 @@ class Ties {
   struct Master {
     std::int32_t node = 0, level = 0;
     std::int32_t first = 0, count = 0;           ///< of shares_
-    double own = 0;                              ///< mass before the restriction [kg]
+    double own = 0, own_volume = 0;              ///< before the restriction [kg], [m^3]
+    double whole = 1;                            ///< W
     Triple from_slopes{}, lumped{}, residual{};  ///< g; dv_0; A
+  };
+  /// A block with finer ones in its space.
+  struct Parent {
+    std::size_t block;
+    std::array<std::int32_t, 27> finer;  ///< at 2 key + {-1, 0, 1}^dim, -1: none
   };
   struct Range {
     std::size_t first = 0, end = 0;
@@ -87,6 +107,8 @@ class Ties {
   std::int32_t node_at(const std::array<int, 3>& index, FieldId field, int level) const;
   void add_tied(const NodeBlock& block, int node);
   void link_masters();
+  void link_parents();
+  void add_children(const Parent& parent);
   void find_slope(Tied& tied, double h);
   void pull(Master& master, double h);
   void sweep(Range masters, double smallest_mass, int level);
@@ -98,12 +120,14 @@ class Ties {
 
   BlockGrid& grid_;
   const BoundarySet& boundary_;
+  WholeVolume whole_volume_;
   std::vector<Tied> tied_;       ///< by level, block, node
   std::vector<Master> masters_;  ///< by level, block, node
   std::vector<Share> shares_;
   std::vector<std::int32_t> master_at_;  ///< by node in memory: index in masters_, -1
   std::vector<Range> tied_ranges_, master_ranges_;
   std::vector<std::size_t> tied_blocks_, master_blocks_;
+  std::vector<Parent> parents_;  ///< finest first; of contact only
 };
 
 }  // namespace krater
