@@ -12,6 +12,7 @@
 #include "krater/app/field_doubts.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
+#include "krater/app/level_report.hpp"
 #include "krater/app/run.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/parallel.hpp"
@@ -88,7 +89,8 @@ void print_shape(const Scene& scene, const Body& body, int coarser) {
   fmt::print(
       "  thickness along the grid's axes: {:.3g} cells in all; a twentieth of the mass lies "
       "where it is below {:.3g} cells\n",
-      coarser * body.fill_report().smallest_thickness_in_cells, body.thickness() / scene.grid.cell);
+      coarser * body.fill_report().smallest_thickness_in_cells,
+      coarser * body.thickness() / body.seed_cell());
 }
 
 /// Which element is worst, and which sets the step.
@@ -282,6 +284,7 @@ void print_text(const Checked& of, const std::string& file) {
         count_text(cost.points), coarser);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b)
     print_body(sim, scene, static_cast<int>(b), coarser);
+  for (const std::string& line : report_levels(sim)) fmt::print("{}\n", line);
   print_elements(sim);
   print_particles(sim);
   print_contact(scene);
@@ -289,6 +292,7 @@ void print_text(const Checked& of, const std::string& file) {
   print_effects(scene, sim);
   print_cards(scene);
   for (const std::string& doubt : doubts_of(scene)) fmt::print("doubt: {}\n", doubt);
+  for (const std::string& doubt : doubt_levels(sim)) fmt::print("doubt: {}\n", doubt);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void add_shape(const Checked& of, const Body& body, Json& out) {
   solid["closed_form"] = Json::of(exact);
   out["solid"] = solid;
   if (of.coarser == 1) out["of_points"] = moments_json(body.seed_moments(), density);
-  out["thickness_in_cells"] = Json::of(body.thickness() / of.scene.grid.cell);
+  out["thickness_in_cells"] = Json::of(of.coarser * body.thickness() / body.seed_cell());
 }
 
 Json mesh_json(const Mesh& mesh) {

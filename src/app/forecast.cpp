@@ -108,7 +108,8 @@ Forecast forecast(const Scene& scene) {
     for (const Boundary& side : axis)
       for (const double v : side.velocity) fastest = std::max(fastest, std::fabs(v));
   out.memory = kProgram + holding + std::max(making, kCopies * columns);
-  count_steps(scene, std::max(fastest / kMostTravel, kShock * signal) / scene.grid.cell, out);
+  const double cell = std::ldexp(scene.grid.cell, -scene.grid.finest());
+  count_steps(scene, std::max(fastest / kMostTravel, kShock * signal) / cell, out);
   const double every = scene.output.history;
   const double rows = std::min(out.steps, every > 0 ? scene.time.end / every : out.steps) + 1;
   double measures = 1;

@@ -142,6 +142,20 @@ FrameMesh frame_mesh(const Simulation& sim, int s) {
   return out;
 }
 
+/// The level of the cells about each point.
+FieldArray level_field(const Simulation& sim, int body) {
+  const auto levels = std::make_shared<std::vector<double>>();
+  for (const auto& [set, i] : sim.points_by_id(body)) levels->push_back(sim.geometry_of(set).level);
+  return {"level",
+          "1",
+          "of the cells about the point, which are 2^-level grid.cell wide",
+          1,
+          {},
+          [levels](std::size_t first, std::size_t count, double* to) {
+            std::copy_n(levels->data() + first, count, to);
+          }};
+}
+
 BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
   const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
   const Frame frame = sim.scene().frame;
@@ -162,6 +176,8 @@ BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
     if (!is_internal(c.field->name) || asked_for(sim.scene(), c.field->name))
       out.fields.push_back(column_array(sim, c, points));
   add_stress(sim, body, points, out);
+  if (!sim.scene().grid.refine.empty() && body.options().material_points())
+    out.fields.push_back(level_field(sim, b));
   for (int s = 0; s < sim.set_count() && part != DrawnSets::points; ++s)
     if (sim.set(s).body == b && sim.is_mesh_set(s)) out.mesh = frame_mesh(sim, s);
   if (!asked_for(sim.scene(), kFragmentField)) return out;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "krater/core/parallel.hpp"
@@ -54,9 +55,41 @@ std::vector<std::string> available(const Simulation& sim, const std::vector<int>
   return out;
 }
 
-/// The points of a set into `out`, from the place `first` on.
+/// Cells about the points of bodies: the least or the greatest level of them.
+int level_of(const Simulation& sim, const std::vector<int>& bodies, bool finest) {
+  int level = -1;
+  for (const Patch& patch : sim.grid().patches()) {
+    if (std::find(bodies.begin(), bodies.end(), patch.body) == bodies.end()) continue;
+    const int l = patch.key.level;
+    level = level < 0 ? l : finest ? std::max(level, l) : std::min(level, l);
+  }
+  return std::max(level, 0);
+}
+
+/// A point of a lattice among the cells of `level` as those that it would be among those of
+/// `finest`: their places from its own.
+std::vector<Triple> parts_of(const Simulation& sim, int body, int level, int finest) {
+  const GridGeometry& g = sim.geometry();
+  const auto& per = sim.scene().bodies[static_cast<std::size_t>(body)].points.per_direction;
+  const int along = 1 << (finest - level);
+  std::vector<Triple> out{{}};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dimension); ++a) {
+    const double step = std::ldexp(g.h, -finest) / per[a];
+    std::vector<Triple> more;
+    for (const Triple& at : out)
+      for (int k = 0; k < along; ++k) {
+        more.push_back(at);
+        more.back()[a] += (k + 0.5 * (1 - along)) * step;
+      }
+    out = std::move(more);
+  }
+  return out;
+}
+
+/// The points of a set into `out`, from the place `first` on; each in parts at these places from
+/// its own.
 void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& wanted,
-                std::size_t first, BodyPoints& out) {
+                std::size_t first, const std::vector<Triple>& parts, BodyPoints& out) {
   const PointSet p = sim.set(at);
   const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
   const int x = body.slot(field::Position::info), v = body.slot(field::Velocity::info);
@@ -69,12 +102,14 @@ void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& 
     for (int a = 0; a < dim; ++a) values[static_cast<std::size_t>(a)] = point[kLanes * (slot + a)];
     return values;
   };
-  for (int i = 0; i < p.count(); ++i) {
-    const std::size_t n = first + static_cast<std::size_t>(i);
-    const double* point = p.points->point(i);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(p.count()) * parts.size(); ++k) {
+    const std::size_t n = first + k;
+    const double* point = p.points->point(static_cast<int>(k / parts.size()));
     out.x[n] = vector(point, x);
+    for (std::size_t a = 0; parts.size() > 1 && a < 3; ++a)
+      out.x[n][a] += parts[k % parts.size()][a];
     if (!out.v.empty()) out.v[n] = vector(point, v);
-    out.mass[n] = point[kLanes * m];
+    out.mass[n] = point[kLanes * m] / static_cast<double>(parts.size());
     out.density[n] = point[kLanes * rho];
     if (!out.body.empty()) out.body[n] = p.body;
     if (!out.rubble.empty())
@@ -110,11 +145,13 @@ void add_crosses(const Simulation& sim, int set, std::vector<std::array<Triple, 
 
 }  // namespace
 
-MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies) {
+MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies,
+                               bool surface) {
   const Scene& scene = sim.scene();
   MeasureContext c;
   c.frame = scene.frame;
-  c.h = scene.grid.cell;
+  c.h = sim.geometry().h;
+  if (!scene.grid.refine.empty()) c.h = std::ldexp(c.h, -level_of(sim, bodies, surface));
   c.min = scene.grid.min;
   for (int a = 0; a < sim.geometry().dimension; ++a)
     c.max[static_cast<std::size_t>(a)] = sim.geometry().upper(a);
@@ -142,11 +179,22 @@ void gather_points(const Simulation& sim, const std::vector<int>& bodies, const 
   };
   std::vector<SetPlace> places;
   std::size_t count = 0;
+  const bool splits = needs.surface && !sim.scene().grid.refine.empty();
+  const int finest = splits ? level_of(sim, bodies, true) : 0;
+  const std::vector<Triple> whole{{}};
+  std::map<std::pair<int, int>, std::vector<Triple>> parts;  // by body and level
+  const auto parts_at = [&](int s) -> const std::vector<Triple>& {
+    const int level = sim.geometry_of(s).level;
+    if (!splits || level == finest) return whole;
+    std::vector<Triple>& out_of = parts[{sim.set(s).body, level}];
+    if (out_of.empty()) out_of = parts_of(sim, sim.set(s).body, level, finest);
+    return out_of;
+  };
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (int s = 0; s < sim.set_count(); ++s) {
       if (sim.set(s).body != bodies[b]) continue;
       places.push_back({s, count, b});
-      count += static_cast<std::size_t>(sim.set(s).count());
+      count += static_cast<std::size_t>(sim.set(s).count()) * parts_at(s).size();
     }
   out.x.resize(count);
   out.v.resize(needs.velocity || needs.pieces ? count : 0);
@@ -172,7 +220,10 @@ void gather_points(const Simulation& sim, const std::vector<int>& bodies, const 
                            sim.mesh()->position(place.set, static_cast<std::size_t>(b))});
   }
   for_each(places.size(), [&](std::size_t i) {
-    gather_set(sim, places[i].set, wanted[places[i].body], places[i].first, out);
+    const auto found =
+        parts.find({sim.set(places[i].set).body, sim.geometry_of(places[i].set).level});
+    gather_set(sim, places[i].set, wanted[places[i].body], places[i].first,
+               found == parts.end() ? whole : found->second, out);
   });
 }
 
@@ -184,7 +235,7 @@ BodyPoints gather_points(const Simulation& sim, const std::vector<int>& bodies,
 }
 
 std::vector<double> fragment_numbers(const Simulation& sim, int body) {
-  const BodyPoints points = gather_points(sim, {body}, {false, true, {}});
+  const BodyPoints points = gather_points(sim, {body}, {.pieces = true});
   const Pieces pieces = connected_pieces(points, measure_context(sim, {body}));
   std::vector<int> first;  // of every set among the points
   int count = 0;

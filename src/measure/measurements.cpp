@@ -58,6 +58,36 @@ bool needs_velocity(MeasureKind kind) {
   }
 }
 
+bool needs_surface(MeasureKind kind) {
+  switch (kind) {
+    case MeasureKind::extent:
+    case MeasureKind::max:
+    case MeasureKind::min:
+    case MeasureKind::diameter:
+    case MeasureKind::largest_diameter:
+    case MeasureKind::penetration_depth:
+    case MeasureKind::crater_depth:
+    case MeasureKind::crater_diameter:
+    case MeasureKind::hole_diameter:
+    case MeasureKind::debris_extent:
+    case MeasureKind::bulge:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Some measure of these bodies does: all of them see the same points.
+bool needs_surface(const Scene& scene, const std::vector<int>& bodies) {
+  return std::any_of(scene.measures.begin(), scene.measures.end(), [&](const MeasureOptions& m) {
+    return m.selection.bodies == bodies && needs_surface(m.kind);
+  });
+}
+
+MeasureContext cells_of(const Simulation& sim, const std::vector<int>& bodies) {
+  return measure_context(sim, bodies, needs_surface(sim.scene(), bodies));
+}
+
 bool needs_pieces(const MeasureOptions& measure) {
   return measure.kind == MeasureKind::fragments || measure.selection.largest_piece ||
          measure.selection.least_points > 1;
@@ -171,7 +201,7 @@ Json impulses_json(const MeasureOptions& m, const Simulation& sim) {
 }  // namespace
 
 MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure) {
-  MeasureContext out = measure_context(sim, measure.selection.bodies);
+  MeasureContext out = cells_of(sim, measure.selection.bodies);
   for (const Partner by : measure.by) {
     const Triple more = sim.impulse(measure.selection.bodies, by);
     for (std::size_t a = 0; a < 3; ++a) out.impulse[a] += more[a];
@@ -184,6 +214,7 @@ Selections::Selections(const Scene& scene) {
     GatherNeeds& needs = needs_[m.selection.bodies];
     for (const std::string& field : fields_of(m)) needs.fields.push_back(field);
     needs.velocity = needs.velocity || needs_velocity(m.kind);
+    needs.surface = needs.surface || needs_surface(m.kind);
     needs.pieces = needs.pieces || needs_pieces(m);
   }
 }
@@ -202,7 +233,7 @@ const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelecti
   if (selection == whole)
     gather_points(sim, selection.bodies, needs_[selection.bodies], kept.points);
   else
-    kept.points = select(selection, points(sim, whole), measure_context(sim, selection.bodies));
+    kept.points = select(selection, points(sim, whole), cells_of(sim, selection.bodies));
   kept.points.memo = std::make_shared<SurfaceMemo>();
   kept.now = true;
   return kept.points;
@@ -220,8 +251,7 @@ Measurements::Measurements(const Simulation& sim) : selections_{sim.scene()} {
         owner = {};
         owner.bodies = {m.target};
       }
-      start.face =
-          face_position(m, selections.points(sim, owner), measure_context(sim, owner.bodies));
+      start.face = face_position(m, selections.points(sim, owner), cells_of(sim, owner.bodies));
     }
     start_.push_back(start);
   }
@@ -298,7 +328,7 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
       measure["impulses"] = impulses_json(m, sim);
     }
     if (!sim.broken() &&
-        rarefied(m, selections_.points(sim, m.selection), measure_context(sim, m.selection.bodies)))
+        rarefied(m, selections_.points(sim, m.selection), cells_of(sim, m.selection.bodies)))
       measure["rarefied"] = Json::of(true);
     if (std::isnan(now[i]) && !sim.broken() && selections_.points(sim, m.selection).mass.empty())
       nothing_.push_back(m.name);
@@ -306,7 +336,7 @@ void Measurements::summarize(const Simulation& sim, Json& summary) {
     MeasureSelection with_dust = m.selection;
     with_dust.least_points = 0;
     fragments[m.name] = fragments_json(m, selections_.points(sim, with_dust),
-                                       measure_context(sim, m.selection.bodies), scene);
+                                       cells_of(sim, m.selection.bodies), scene);
   }
   summary["measures"] = std::move(measures);
   if (!fragments.items.empty()) summary["fragments"] = std::move(fragments);

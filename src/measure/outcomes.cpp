@@ -45,7 +45,7 @@ std::string fate_sentence(Fate fate, bool broken, const std::string& target) {
   return (broken ? " broke up and " : " ") + (phrases[static_cast<std::size_t>(fate)] + target);
 }
 
-const GatherNeeds kNeeds{true, true, {}};
+const GatherNeeds kNeeds{.velocity = true, .pieces = true};
 
 const std::string& body_name(const Scene& scene, int b) {
   return scene.bodies[static_cast<std::size_t>(b)].name;

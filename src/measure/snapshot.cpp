@@ -81,6 +81,31 @@ void add_particles(const Simulation& sim, Json& j) {
   j["stabilisation_heat"] = Json::of(sim.audit().stabilisation);
 }
 
+/// Points of the blocks of a level.
+std::size_t points_at(const Simulation& sim, int level) {
+  std::size_t count = 0;
+  for (const Patch& patch : sim.grid().patches())
+    if (patch.key.level == level) count += static_cast<std::size_t>(patch.points.count());
+  return count;
+}
+
+void add_levels(const Simulation& sim, std::vector<Quantity>& row) {
+  if (sim.scene().grid.refine.empty()) return;
+  for (int level = 0; level <= sim.scene().grid.finest(); ++level)
+    add(row, "points_level_" + std::to_string(level), "1",
+        static_cast<double>(points_at(sim, level)));
+  add(row, "level_heat", "J", sim.audit().level_heat);
+}
+
+void add_levels(const Simulation& sim, Json& j) {
+  if (sim.scene().grid.refine.empty()) return;
+  Json& counts = j["points_by_level"];
+  for (int level = 0; level <= sim.scene().grid.finest(); ++level)
+    counts[std::to_string(level)] = Json::of(static_cast<std::int64_t>(points_at(sim, level)));
+  j["split_points"] = Json::of(static_cast<std::int64_t>(sim.audit().split_points));
+  j["level_heat"] = Json::of(sim.audit().level_heat);
+}
+
 }  // namespace
 
 std::vector<Quantity> history_row(const Simulation& sim) {
@@ -113,6 +138,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "energy_error_fraction", "1", a.error_fraction());
   if (sim.mesh() != nullptr) add_elements(sim, row);
   add_particles(sim, row);
+  add_levels(sim, row);
   add(row, "mass", "kg", t.mass);
   const Frame frame = sim.scene().frame;
   for (int k = 0; k < dimension(frame); ++k)
@@ -168,6 +194,7 @@ Json audit_json(const Simulation& sim) {
   j["largest_carried_energy"] = Json::of(a.largest_carried);
   if (sim.mesh() != nullptr) add_elements(sim, j);
   add_particles(sim, j);
+  add_levels(sim, j);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);

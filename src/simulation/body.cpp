@@ -79,7 +79,8 @@ Box domain_box(const Scene& scene) { return {scene.grid.min, scene.grid.max}; }
 Body::Body(const Scene& scene, int index, const StageFactory& factory)
     : options_{&scene.bodies.at(static_cast<std::size_t>(index))},
       material_{&scene.materials.at(static_cast<std::size_t>(options_->material))},
-      layout_{dimension(scene.frame)} {
+      layout_{dimension(scene.frame)},
+      seed_cell_{scene.grid.cell} {
   const MethodOptions& method = scene.method;
   if (options_->rigid()) {
     declare_rigid_points(method, material_->density, layout_);
@@ -189,7 +190,8 @@ std::vector<SeedPoint> Body::lattice(const Scene& scene, int level) {
 std::vector<SeedPoint> Body::seeds(const Scene& scene, int level) {
   std::vector<SeedPoint> out = lattice(scene, level);
   seed_moments_ = moments_of(out, scene.frame);
-  examine_thickness(scene, out, std::ldexp(scene.grid.cell, -level));
+  seed_cell_ = std::ldexp(scene.grid.cell, -level);
+  examine_thickness(scene, out, seed_cell_);
   return out;
 }
 

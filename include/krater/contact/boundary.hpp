@@ -27,7 +27,7 @@
 /// J.v_plane; what a column loses beyond it is heat of its three nodes (contact/impulse_heat.hpp).
 ///
 /// On a level of the grid whose planes are knots (grid/geometry.hpp) no node lies on a plane: the
-/// column is a pair, ghost and inner node, with c = {-1, 1} held as above, and material touches while
+/// column is a pair, ghost and inner node, with c = {-1, 1} held as above; material touches while
 ///   V_ghost + V_inner > 5/6 V_next     (V_next: of the node beyond the inner one),
 /// which closes gaps below 0.16 cells, as 1/4 does at a node (0.19). A plane that travels is
 /// anywhere between nodes on every level.

@@ -11,8 +11,8 @@
 /// one field stick together, fields know nothing of each other until contact or, with a fixed
 /// reference configuration, for ever.
 ///
-/// Blocks of several levels stand side by side (grid/levels.hpp); those of one level know nothing of
-/// the others' nodes but through the tied ones (kinematics/mpm/ties.hpp). How nodes are counted:
+/// Blocks of several levels stand side by side (grid/levels.hpp); those of one level know nothing
+/// of the others' nodes but through the tied ones (kinematics/mpm/ties.hpp). How nodes are counted:
 /// grid/geometry.hpp.
 #include <array>
 #include <cstdint>

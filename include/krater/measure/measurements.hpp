@@ -17,7 +17,10 @@
 namespace krater {
 
 /// Domain, boundaries and point spacing of bodies, as measures see them.
-MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies);
+/// Cells are the coarsest about points of the bodies; with `surface` the finest, for points that
+/// were gathered so.
+MeasureContext measure_context(const Simulation& sim, const std::vector<int>& bodies,
+                               bool surface = false);
 
 /// The same for a measure, with what its partner gave.
 MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure);
@@ -25,8 +28,11 @@ MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure);
 /// What is wanted of points beside position, mass and density.
 struct GatherNeeds {
   bool velocity = false, pieces = false;  ///< pieces: the velocity, and what is rubble
-  std::vector<std::string> fields;  ///< scalars; those that not all bodies carry are left out,
-                                    ///< but for "failed" (0 where a body cannot fail)
+  /// Where the body ends: points among coarser cells stand for those that they would be split into
+  /// in the finest ones of their bodies.
+  bool surface = false;
+  std::vector<std::string> fields{};  ///< scalars; those that not all bodies carry are left out,
+                                      ///< but for "failed" (0 where a body cannot fail)
 };
 
 /// The points of bodies into `out`, body after body, patch after patch.

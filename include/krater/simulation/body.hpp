@@ -30,6 +30,7 @@ class Body {
   const VolumeMoments& seed_moments() const { return seed_moments_; }
   /// Where a twentieth of the mass is thinner [m], see geometry/seeds/thickness.hpp.
   double thickness() const { return thickness_; }
+  double seed_cell() const { return seed_cell_; }  ///< cells of its lattice: seeds() [m]
   /// Throws InputError when a fifth of the mass is where it is no thicker than a cell.
   void require_thickness(double cell) const;
   double q_lin() const { return q_lin_; }
@@ -63,7 +64,7 @@ class Body {
   std::vector<const Stage*> stage_pointers_;
   FillReport fill_;
   VolumeMoments seed_moments_;
-  double thickness_ = 0, thin_ = 0;
+  double thickness_ = 0, thin_ = 0, seed_cell_ = 0;
   bool degrades_ = false;
   double q_lin_ = 0, q_quad_ = 0, sound_speed_ = 0;
 };

@@ -27,8 +27,8 @@ void Ties::link_parents() {
   }
 }
 
-// The children of node J are 2J - 2 .. 2J + 1 with the weights (1 3 3 1)/4. Tied ones are in its sum
-// already.
+// The children of node J are 2J - 2 .. 2J + 1 with the weights (1 3 3 1)/4. Tied ones are in its
+// sum already.
 void Ties::add_children(const Parent& parent) {
   const int dimension = grid_.geometry().dimension, edge = block_edge(dimension);
   NodeBlock& block = grid_.node_blocks()[parent.block];

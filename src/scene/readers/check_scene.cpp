@@ -270,7 +270,8 @@ void check_body(BodyOptions& body, Reading& reading) {
   double per_cell = 1;
   for (int a = 0; a < dimension(scene.frame); ++a)
     per_cell *= body.points.per_direction[static_cast<std::size_t>(a)];
-  body.point_estimate = cells * per_cell + points_of_zones(body, scene, per_cell);
+  body.point_estimate = cells * per_cell + points_of_zones(body, scene, per_cell) +
+                        points_of_levels(body, scene, per_cell);
 }
 
 /// Bodies that share material have that mass twice, and push each other apart from the start.

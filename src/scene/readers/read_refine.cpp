@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // grid.refine: where cells are finer.
 #include <algorithm>
+#include <cmath>
 
 #include "krater/grid/levels.hpp"
 #include "scene/readers/readers.hpp"
@@ -117,6 +118,35 @@ void read_refine(Block& grid, Reading& reading) {
   for (std::size_t i = 0; i < list->items.size(); ++i)
     reading.scene.grid.refine.push_back(read_rule(list->items[i], reading, resolved[i]));
   grid.record("refine", list_node(resolved));
+}
+
+/// Rules that lie in one another count once each for what they add to the rule around them.
+double points_of_levels(const BodyOptions& body, const Scene& scene, double per_cell) {
+  const int dim = dimension(scene.frame);
+  const Box domain{scene.grid.min, scene.grid.max};
+  const auto factor = [dim](int level) { return std::pow(2.0, dim * level); };
+  const auto box_of_rule = [&](const RefineOptions& rule) {
+    Box box = domain;
+    if (rule.box) box = intersection(box, *rule.box, dim);
+    if (rule.region) box = intersection(box, rule.region->extent(scene.frame), dim);
+    return box;
+  };
+  double points = 0;
+  for (const RefineOptions& rule : scene.grid.refine) {
+    const bool follows = !rule.follow_name.empty();
+    if (!rule.field.empty() || (follows && rule.follow_name != body.name)) continue;
+    const Box box = box_of_rule(rule);
+    if (is_empty(box, dim)) continue;
+    int around = 0;
+    for (const RefineOptions& other : scene.grid.refine)
+      if ((other.box || other.region) && other.level < rule.level && !follows) {
+        const Box common = intersection(box_of_rule(other), box, dim);
+        if (common.min == box.min && common.max == box.max) around = std::max(around, other.level);
+      }
+    points += (factor(rule.level) - factor(around)) * per_cell *
+              body.solid->part(scene.frame, box).section / std::pow(scene.grid.cell, dim);
+  }
+  return points;
 }
 
 void check_refine(Reading& reading) {

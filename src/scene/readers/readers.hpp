@@ -28,6 +28,8 @@ struct Reading {
 Node read_grid(const Node* node, Reading& reading);
 /// `refine:` of the grid, a list of rules.
 void read_refine(Block& grid, Reading& reading);
+/// Points that finer cells add to a body at the start, about.
+double points_of_levels(const BodyOptions& body, const Scene& scene, double per_cell);
 /// What levels of cells do not go with; after all blocks.
 void check_refine(Reading& reading);
 Node read_time(const Node* node, Reading& reading);

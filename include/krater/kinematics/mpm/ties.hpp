@@ -2,8 +2,8 @@
 #pragma once
 /// \file kinematics/mpm/ties.hpp
 /// Nodes at the edge of a level follow from those of the level above (grid/levels.hpp). With the
-/// weights P_nJ of the two-scale relation, sum_J P_nJ = 1, sum_J P_nJ x_J = x_n, after the sums over
-/// tiles and before the gather
+/// weights P_nJ of the two-scale relation, sum_J P_nJ = 1, sum_J P_nJ x_J = x_n, after the sums
+/// over tiles and before the gather
 ///   restrict:  m_J += sum_n P_nJ m_n,  f_J += sum_n P_nJ f_n,
 ///              p_J += sum_n P_nJ [p_n + m_n G_n (x_J - x_n)]
 ///   prolong:   v_n = sum_J P_nJ v_J,  and dv_n, k_n
@@ -22,15 +22,15 @@
 /// halve the reflection. Eigenvalues of M/D lie in [0, 1], so nothing can grow, and sum_J A_J = 0.
 /// What it takes from motion is heat: k of a master counts dt f . vbar, as the xpic filter's does.
 ///
-/// apic and xpic add |v-|^2 to k, whose sum must be that of v- . p over what was scattered; a master
-/// then counts |v-|^2 - v- . g/D, g what slopes added to its momentum.
+/// apic and xpic add |v-|^2 to k, whose sum must be that of v- . p over what was scattered; a
+/// master then counts |v-|^2 - v- . g/D, g what slopes added to its momentum.
 ///
 /// Contact looks for where bodies meet in the volumes of nodes, and there a node must have what a
 /// uniform grid of its level would see: coarse nodes that of all their children, free ones too,
 /// tied nodes their own and their share of the coarse points, V_n = V_raw + W_n sum_J P_nJ V_J/W_J,
 /// with W the volume that a function covers.
 ///
-/// Sums are pulled by the masters in the order of the tied nodes: the bits do not depend on threads.
+/// Masters pull their sums in the order of the tied nodes: the bits do not depend on threads.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -55,8 +55,8 @@ class Ties {
   /// Find tied nodes and masters, and mark their blocks; after BlockGrid::rebuild().
   void relink();
   bool any() const { return !tied_.empty(); }
-  /// Sums [m, p, f, V] of the tied nodes of a level to their masters; they are zero then. The ghosts
-  /// of their level are folded before.
+  /// Sums [m, p, f, V] of the tied nodes of a level to their masters; they are zero then. The
+  /// ghosts of their level are folded before.
   void restrict(int level);
   /// Changes dv and v+ of the masters, which hold [v+, m, dv, V], and the sums of their blocks.
   void sharpen(const std::vector<MomentumSettings>& by_level);
