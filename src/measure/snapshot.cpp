@@ -169,6 +169,28 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   return row;
 }
 
+namespace {
+
+Json events_json(const Audit& a) {
+  Json events;
+  events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));
+  events["removed_failed_points"] = Json::of(static_cast<std::int64_t>(a.removed_failed));
+  events["sound_speed_floors"] = Json::of(static_cast<std::int64_t>(a.sound_speed_floors));
+  events["hugoniot_poles"] = Json::of(static_cast<std::int64_t>(a.hugoniot_poles));
+  events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));
+  events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
+  events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
+  events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
+  events["carriers"] = Json::of(static_cast<std::int64_t>(a.carriers));
+  events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
+  events["penetrations"] = Json::of(static_cast<std::int64_t>(a.penetrations));
+  events["deepest_reflection_cells"] = Json::of(a.deepest_reflection);
+  events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
+  return events;
+}
+
+}  // namespace
+
 Json audit_json(const Simulation& sim) {
   const Audit& a = sim.audit();
   const Totals t = sim.totals();
@@ -213,21 +235,7 @@ Json audit_json(const Simulation& sim) {
       j[name + std::string{axis_name(sim.scene().frame, k)}] =
           Json::of(value[static_cast<std::size_t>(k)]);
   j["angular_momentum"] = Json::of(t.angular_momentum);
-  Json events;
-  events["removed_points"] = Json::of(static_cast<std::int64_t>(a.removed_points));
-  events["removed_failed_points"] = Json::of(static_cast<std::int64_t>(a.removed_failed));
-  events["sound_speed_floors"] = Json::of(static_cast<std::int64_t>(a.sound_speed_floors));
-  events["hugoniot_poles"] = Json::of(static_cast<std::int64_t>(a.hugoniot_poles));
-  events["failures"] = Json::of(static_cast<std::int64_t>(a.failures));
-  events["snap_backs"] = Json::of(static_cast<std::int64_t>(a.snap_backs));
-  events["spalls"] = Json::of(static_cast<std::int64_t>(a.spalls));
-  events["new_references"] = Json::of(static_cast<std::int64_t>(a.new_references));
-  events["carriers"] = Json::of(static_cast<std::int64_t>(a.carriers));
-  events["reflections"] = Json::of(static_cast<std::int64_t>(a.reflections));
-  events["penetrations"] = Json::of(static_cast<std::int64_t>(a.penetrations));
-  events["deepest_reflection_cells"] = Json::of(a.deepest_reflection);
-  events["halved_steps"] = Json::of(static_cast<std::int64_t>(a.retries));
-  j["events"] = events;
+  j["events"] = events_json(a);
   return j;
 }
 

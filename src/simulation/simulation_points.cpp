@@ -15,6 +15,12 @@ namespace krater {
 
 void Simulation::find_levels() {
   if (scene_.grid.refine.empty()) return;
+  for (const auto& body : bodies_)
+    if (body->pressure_on_grid(scene_))
+      throw InputError(scene_.grid.refine.front().where + ": finer cells do not go with body '" +
+                       body->name() +
+                       "', whose pressure is integrated on the grid as a fluid's; use "
+                       "method.grid_pressure: none, or no grid.refine");
   refinement_ = std::make_unique<Refinement>(scene_, geometry_, bodies_);
   std::vector<BlockSet> blocks(bodies_.size());
   for (const RefineOptions& rule : scene_.grid.refine) {

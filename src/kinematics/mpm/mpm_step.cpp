@@ -85,7 +85,7 @@ double MpmStep::force(double dt) {
   external_impulse_ = {};
   if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
   if (method_.reference != Reference::current) measure_gaps();
-  if (loads_.any()) loads_.collect(plain_, settings(dt), [this] { return scratch(); });
+  if (loads_.any()) loads_.collect(plain_, all_settings(dt), [this] { return scratch(); });
   particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
   grid_kinetic_ = momentum(dt, 1);           // v- = p/m, v+ = v- + dt f/m
   begin_rigid(dt, grid_kinetic_);

@@ -47,7 +47,7 @@ bool NodeLoads::marked(const Patch& patch) const {
   return false;
 }
 
-void NodeLoads::collect(const Kernels& kernels, SweepSettings settings,
+void NodeLoads::collect(const Kernels& kernels, std::vector<SweepSettings> by_level,
                         const std::function<SweepScratch()>& scratch) {
   for (std::size_t k = 0; k < now_.size(); ++k)
     for (std::size_t a = 0; a < 3; ++a)
@@ -58,7 +58,7 @@ void NodeLoads::collect(const Kernels& kernels, SweepSettings settings,
   if (options_.faces.empty()) return;
   std::vector<char> marks(patches.size());
   for_each(patches.size(), [&](std::size_t p) { marks[p] = marked(patches[p]) ? 1 : 0; });
-  settings.average_cells = false;  // beta is that of the stress
+  for (SweepSettings& s : by_level) s.average_cells = false;  // beta is that of the stress
   const auto size = static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) * kNodeDoubles;
   for_each(patches.size(), [&](std::size_t p) {
     Patch& patch = patches[p];
@@ -69,7 +69,8 @@ void NodeLoads::collect(const Kernels& kernels, SweepSettings settings,
     });
     if (!near && marks[p] == 0) return;
     patch.result.fault = {};
-    kernels.scatter(patch, areas_[static_cast<std::size_t>(patch.body)], settings, scratch());
+    kernels.scatter(patch, areas_[static_cast<std::size_t>(patch.body)],
+                    by_level[static_cast<std::size_t>(patch.key.level)], scratch());
     tiles_[p].reserve(size);
     std::copy(patch.tile.data(), patch.tile.data() + size, tiles_[p].data());
     loaded_[p] = 1;

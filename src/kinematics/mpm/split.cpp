@@ -128,9 +128,10 @@ double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int 
     part.key = levels.block_at(x);
     after += kinetic_of(part.record, c, levels.geometry(part.key.level).h, dim);
   }
-  const double heat = half_width == nullptr ? before - after : 0;
+  const double heat = half_width == nullptr && c.energy >= 0 ? before - after : 0;
   for (Arrival& part : parts) {
-    entry(part.record, heat < 0 && c.carried >= 0 ? c.carried : c.energy) += heat / m;
+    if (c.energy >= 0)  // rigid bodies have none
+      entry(part.record, heat < 0 && c.carried >= 0 ? c.carried : c.energy) += heat / m;
     out.push_back(std::move(part));
   }
   return heat;

@@ -91,6 +91,10 @@ std::string what_is_not_ready(const Scene& scene) {
            "their cells, so that method.points_per_direction refines there";
   if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
     return "finer cells need contact.normal: volume_gradient";
+  for (const FaceLoad& load : scene.loads.faces)
+    if (load.kind == FaceLoad::Kind::velocity)
+      return "finer cells do not go with loads that drive a face by its velocity; use a rigid body "
+             "or a side of the domain with a velocity";
   for (const BodyOptions& body : scene.bodies) {
     if (!body.material_points())
       return "finer cells are for bodies of material points; body " + quote(body.name) +

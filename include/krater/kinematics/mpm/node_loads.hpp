@@ -57,7 +57,7 @@ class NodeLoads {
   /// Loads are those of this time [s].
   void set_time(double time) { time_ = time; }
   /// Areas and shares of the loaded bodies; before the tiles are scattered, which it uses.
-  void collect(const Kernels& kernels, SweepSettings settings,
+  void collect(const Kernels& kernels, std::vector<SweepSettings> by_level,
                const std::function<SweepScratch()>& scratch);
   /// Forces of pressures, tractions and damping; nodes hold [m, p, f, V], nothing folded yet.
   void add_forces(double dt, double smallest_mass);  ///< lighter nodes feel none [kg]

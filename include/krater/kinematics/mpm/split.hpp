@@ -16,8 +16,8 @@
 /// level. Where a point changes it, whole or in parts,
 ///   -dT = m/2 L:L (h_from^2 - h_to^2)/4 - m/2 sum w |L (d - sum w d)|^2
 /// becomes its heat: the coarser cells would have made heat of it when L fades. What is missing on
-/// the way to coarser cells is a debt (kinematics/mpm/ledger.hpp); of matter whose pressure does not
-/// know its energy it is taken.
+/// the way to coarser cells is a debt (kinematics/mpm/ledger.hpp), and taken at once from matter
+/// whose pressure does not know its energy.
 #include <array>
 #include <vector>
 
