@@ -11,7 +11,8 @@ namespace krater {
 
 namespace {
 
-constexpr double kTooLarge = 1.4;  ///< in spacings along each axis
+constexpr double kTooLarge = 1.4;   ///< in spacings along each axis
+constexpr double kMostGrown = 1.5;  ///< of the spacing, in spacings
 
 /// A record of one point by the offsets of its columns.
 double& entry(std::vector<double>& record, int offset, int k = 0) {
@@ -57,12 +58,28 @@ std::vector<Offset> offsets(std::vector<double>& record, const PointColumns& c, 
   return out;
 }
 
+/// No part beyond a side of the domain that the whole is inside of.
+void keep_inside(std::vector<Offset>& at, std::vector<double>& record, const PointColumns& c,
+                 const GridGeometry& g) {
+  constexpr double kRoom = 0.9;
+  for (int a = 0; a < g.dimension; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    const double x = entry(record, c.position, a);
+    const double room = kRoom * std::max(0.0, std::min(x - g.min[k], g.upper(a) - x));
+    double most = 0;
+    for (const Offset& d : at) most = std::max(most, std::abs(d.now[k]));
+    if (most > room)
+      for (Offset& d : at) d.now[k] *= room / most;
+  }
+}
+
 /// 2^dim points in the place of one, `step` from it along each axis.
 void split(const GridGeometry& g, const PointColumns& c, PointSize& size, const Triple& step,
            const Arrival& whole, std::vector<Arrival>& out) {
   const int dim = g.dimension, parts = corner_count(dim);
   std::vector<double> record = whole.record;
-  const std::vector<Offset> at = offsets(record, c, step, g.h, dim);
+  std::vector<Offset> at = offsets(record, c, step, g.h, dim);
+  keep_inside(at, record, c, g);
   const double r = entry(record, c.position);
   std::vector<double> share(at.size(), 1.0 / parts);
   if (size.hoop) {
@@ -108,6 +125,10 @@ double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int 
   const double m = entry(point.record, c.mass), r = entry(point.record, c.position);
   std::vector<Arrival> parts{std::move(point)}, next;
   int splits = 0;
+  // Of its spacing over that of a point of its level, by its volume; F tells what became of that.
+  const double rho = c.deformation >= 0 ? size.density : entry(parts.front().record, c.density);
+  const double there = m / rho, usual = size.mass(levels.geometry(from), r) / size.density;
+  const double grown = std::clamp(std::pow(there / usual, 1.0 / dim), 0.5, kMostGrown);
   for (int l = from + 1; l <= level; ++l) {
     if (!(m * std::pow(corner_count(dim), -splits) >
           std::pow(kTooLarge, dim) * size.mass(levels.geometry(l), r)))
@@ -117,7 +138,7 @@ double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int 
     Triple step{};
     for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
       step[a] = half_width != nullptr ? std::ldexp((*half_width)[a], -splits)
-                                      : 0.5 * levels.geometry(l).h / size.per_direction[a];
+                                      : 0.5 * grown * levels.geometry(l).h / size.per_direction[a];
     for (const Arrival& whole : parts) split(levels.geometry(l), c, size, step, whole, next);
     parts.swap(next);
   }

@@ -9,8 +9,8 @@
 /// so mass, momentum, the heat in it and the motion about its centre are kept, and about an axis
 /// every part keeps its share of the section. By mass and not by volume: matter that has expanded
 /// needs no more points. By size and not by level: a part that lands among the coarse cells stays
-/// what it is. Where the body keeps its deformation F, d is F d_0, up to half a cell of the level
-/// above.
+/// what it is. s is that of the point's volume; where the body keeps its deformation F, d is F d_0,
+/// up to half a cell of the level above. Parts stay inside the sides of the domain.
 ///
 /// Kinetic energy with its affine part (h_l^2/4 per axis, as all sums count it) is one of the
 /// level. Where a point changes it, whole or in parts,
