@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib import cm, colormaps, colors, patheffects
 
 from plot_run_elements import draw_elements, draw_surfaces
+import plot_run_levels as levels
 from plot_run_raster import HALF, Fraction, Raster, box_mean, closed_planes, stamp
 
 ABSENT = -1e300
@@ -30,9 +31,12 @@ class Body:
         x = group["coordinates"][()]
         self.kept = np.isfinite(x).all(axis=1)  # a broken run may hold points that are nowhere
         self.x = x[self.kept]
-        self.fields = group
+        self.fields, self.parts = group, None  # parts: of which point each is one
         self.side = self.spacing(summary)  # of the square or cube that each point stands for
         self.volume = self.volumes(frame_of(summary, self.x))
+        self.flat = frame_of(summary, self.x) != "3d"
+        self.level = np.round(self.values("level")).astype(int) if "level" in group else np.zeros(len(self.x), int)
+        self.whole = self.x  # places of the points, whatever is drawn of them
         self.nodes = group["nodes"]["coordinates"][()] if "nodes" in group else None
         self.cells = group["connectivity"][()][self.kept] if "nodes" in group else None  # corners of each element
 
@@ -61,7 +65,10 @@ class Body:
         return np.sqrt(volume)
 
     def values(self, field):
-        return self.fields[field][()][self.kept] if field in self.fields else None
+        if field not in self.fields:
+            return None
+        values = self.fields[field][()][self.kept]
+        return values if self.parts is None else values[self.parts]
 
 
 def frame_of(summary, x):
@@ -100,7 +107,9 @@ class Run:
     def bodies(self, number):
         group = self.file["frames"][number]
         bodies = [Body(name, group[name], self.summary) for name in group if len(group[name]["id"])]
-        return [body for body in bodies if len(body.x)]
+        bodies = [body for body in bodies if len(body.x)]
+        self.finest = levels.spread(bodies)
+        return bodies
 
     def title(self):
         return str(self.summary.get("title") or os.path.basename(os.path.abspath(self.folder)))
@@ -202,7 +211,8 @@ def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
     bodies = [body for body in bodies if body.cells is None]
     if not bodies:
         return
-    raster = Raster(box * mm, float(run.summary.get("cell") or 2 * np.median(bodies[0].side)), pixels)
+    cell = float(run.summary.get("cell") or 2 * np.median(bodies[0].side)) / 2 ** run.finest
+    raster = Raster(box * mm, cell, pixels)
     image, most = np.ones(raster.shape + (4,)), np.full(raster.shape, HALF)
     for body in bodies:
         body_in = Fraction(raster, run.frame, body.x, body.volume, run.planes, run.section_y)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/machine.hpp"
 
+#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -29,6 +30,7 @@ Json machine_json(const Simulation& sim, double seconds, double point_steps) {
   out["bytes_per_point"] = Json::of(sim.bytes_per_point());
   out["peak_resident_bytes"] = Json::of(peak_resident_bytes());
   out["wall_seconds"] = Json::of(seconds);
+  out["processor_seconds"] = Json::of(static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
   Json& phases = out["seconds"];
   for (std::size_t i = 0; i < phase_names.size(); ++i)
     phases[phase_names[i]] = Json::of(sim.stepper().seconds(static_cast<Phase>(i)));

@@ -116,7 +116,6 @@ template <class Add>
 void BlockGrid::add_shadows(const Add& add) {
   const int dimension = geometry().dimension;
   const std::vector<NodeBlock> there = node_blocks_;
-  node_index_.grow(there.size() * static_cast<std::size_t>(1 + neighbour_count(dimension)));
   const auto under_finer = [&](const BlockKey& key) {
     for (int c = 0; c < corner_count(dimension); ++c)
       if (levels_.is_refined(at_corner(key, c, -1, dimension))) return true;
@@ -147,7 +146,6 @@ void BlockGrid::make_node_blocks() {
   if (!levels_.single()) {
     // what points see, and where it follows from nodes of the level above, these
     const std::size_t seen = node_blocks_.size();
-    node_index_.grow(seen * static_cast<std::size_t>(1 + corners));
     for (std::size_t n = 0; n < seen; ++n) {
       node_blocks_[n].tied = levels_.tied_nodes(node_blocks_[n].key);
       if (node_blocks_[n].tied == 0) continue;

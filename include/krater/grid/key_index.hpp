@@ -43,16 +43,10 @@ class KeyIndex {
     std::size_t size = 16;
     while (size < 2 * count) size *= 2;
     slots_.assign(size, Slot{{}, 0, -1});
-  }
-  /// Room for `count` entries, the old ones kept.
-  void grow(std::size_t count) {
-    std::vector<Slot> old;
-    old.swap(slots_);
-    clear(count);
-    for (const Slot& slot : old)
-      if (slot.index >= 0) insert(slot.key, slot.tag, slot.index);
+    count_ = 0;
   }
   void insert(const BlockKey& key, int tag, int index) {
+    if (2 * ++count_ > slots_.size()) grow();
     std::size_t at = start(key, tag);
     while (slots_[at].index >= 0) at = (at + 1) & (slots_.size() - 1);
     slots_[at] = {key, tag, index};
@@ -67,6 +61,14 @@ class KeyIndex {
   }
 
  private:
+  void grow() {
+    std::vector<Slot> old;
+    old.swap(slots_);
+    clear(old.size());
+    for (const Slot& slot : old)
+      if (slot.index >= 0) insert(slot.key, slot.tag, slot.index);
+    ++count_;  // the one that asked for room
+  }
   struct Slot {
     BlockKey key;
     int tag, index;
@@ -75,6 +77,7 @@ class KeyIndex {
     return hash_of(key, tag) & (slots_.size() - 1);
   }
   std::vector<Slot> slots_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace krater

@@ -25,20 +25,68 @@ std::array<int, 3> index_in(const NodeBlock& block, std::size_t n, int dimension
 
 }  // namespace
 
-double Ties::weight(const Tied& tied, int corner) const {
-  double w = 1;
-  for (int a = 0; a < grid_.geometry().dimension; ++a)
-    w *= ((tied.odd >> a & 1U) != 0) == (corner_offset(corner, a) != 0) ? 0.75 : 0.25;
-  return w;
-}
+/// Where a block with tied nodes finds others: looked up once for all of them.
+struct Ties::Places {
+  Places(const BlockGrid& grid, std::size_t block)
+      : own{block}, dimension{grid.geometry().dimension}, edge{block_edge(dimension)} {
+    const NodeBlock& home = grid.node_blocks()[block];
+    for (int a = 0; a < dimension; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      half[k] = home.key.i[k] % 2 != 0 ? edge / 2 : 0;
+      for (const int side : {0, 1}) {
+        BlockKey next = home.key;
+        next.i[k] += side == 0 ? -1 : 1;
+        neighbours[2 * k + static_cast<std::size_t>(side)] = grid.find_node_block(next, home.field);
+      }
+    }
+    for (int c = 0; c < corner_count(dimension); ++c) {
+      const auto key = master_block(home.key, c, dimension);
+      masters[static_cast<std::size_t>(c)] = key ? grid.find_node_block(*key, home.field) : kNone;
+    }
+  }
+  /// Of a node of the block: (n >> 1), or one more along the axes of `corner`.
+  std::int32_t master(const std::array<int, 3>& local, int corner) const {
+    int at = 0, block = 0;
+    for (int a = 0; a < dimension; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      int i = half[k] + local[k] / 2 + corner_offset(corner, a);
+      if (i >= edge) {
+        i -= edge;
+        block |= 1 << a;
+      }
+      at = at * edge + i;
+    }
+    return masters[static_cast<std::size_t>(block)] * kBlockNodes + at;
+  }
+  /// The next node along an axis; none: -1.
+  std::int32_t beside(const std::array<int, 3>& local, int axis, int step) const {
+    int at = 0, block = static_cast<int>(own);
+    for (int a = 0; a < dimension; ++a) {
+      int i = local[static_cast<std::size_t>(a)] + (a == axis ? step : 0);
+      if (i < 0 || i >= edge) {
+        block = neighbours[static_cast<std::size_t>(2 * a + (i < 0 ? 0 : 1))];
+        i = (i + edge) % edge;
+      }
+      at = at * edge + i;
+    }
+    return block < 0 ? kNone : block * kBlockNodes + at;
+  }
 
-std::int32_t Ties::node_at(const std::array<int, 3>& index, FieldId field, int level) const {
-  const auto [key, local] = grid_.place_of_node(index, level);
-  const int block = grid_.find_node_block(key, field);
-  return block < 0 ? kNone : block * kBlockNodes + local;
-}
+  std::size_t own;
+  int dimension, edge;
+  std::array<int, 3> half{};        ///< where the block begins in that of its masters
+  std::array<int, 6> neighbours{};  ///< blocks along each axis, lower and upper
+  std::array<int, 8> masters{};     ///< blocks by corner
+};
 
 void Ties::relink() {
+  const int dimension = grid_.geometry().dimension;
+  for (unsigned odd = 0; odd < 8; ++odd)
+    for (int corner = 0; corner < corner_count(dimension); ++corner) {
+      double& w = weights_[odd][static_cast<std::size_t>(corner)] = 1;
+      for (int a = 0; a < dimension; ++a)
+        w *= ((odd >> a & 1U) != 0) == (corner_offset(corner, a) != 0) ? 0.75 : 0.25;
+    }
   tied_.clear();
   tied_blocks_.clear();
   const int levels = grid_.levels().count();
@@ -51,47 +99,41 @@ void Ties::relink() {
     tied_blocks_.push_back(b);
     Range& range = tied_ranges_[static_cast<std::size_t>(block.key.level)];
     if (range.end == 0) range.first = tied_.size();
+    const Places places{grid_, b};
     for (int n = 0; n < kBlockNodes; ++n)
-      if ((block.tied >> n & 1U) != 0) add_tied(block, n);
+      if ((block.tied >> n & 1U) != 0) add_tied(block, n, places);
     range.end = tied_.size();
   }
   link_masters();
   if (whole_volume_) link_parents();
 }
 
-void Ties::add_tied(const NodeBlock& block, int node) {
+void Ties::add_tied(const NodeBlock& block, int node, const Places& places) {
   const GridGeometry& g = grid_.geometry(block.key.level);
-  const int edge = block_edge(g.dimension), level = block.key.level;
+  const int edge = block_edge(g.dimension);
   Tied& tied = tied_.emplace_back();
-  std::array<int, 3> index{}, coarse{};
+  std::array<int, 3> local{};
   for (int a = g.dimension - 1, rest = node; a >= 0; --a, rest /= edge) {
     const auto k = static_cast<std::size_t>(a);
-    index[k] = block.key.i[k] * edge + rest % edge;
-    coarse[k] = floor_div(index[k], 2);
-    if (index[k] != 2 * coarse[k]) tied.odd |= 1U << a;
+    local[k] = rest % edge;  // blocks have an even number of nodes along each axis
+    if (local[k] % 2 != 0) tied.odd |= 1U << a;
   }
-  tied.node = node_at(index, block.field, level);
-  if (whole_volume_) tied.whole = whole_volume_(g, index);
+  tied.node = static_cast<std::int32_t>(places.own * kBlockNodes + node);
+  if (whole_volume_)
+    tied.whole = whole_volume_(g, index_in(block, static_cast<std::size_t>(node), g.dimension));
   tied.masters.fill(kNone);
-  for (int c = 0; c < corner_count(g.dimension); ++c) {
-    std::array<int, 3> master = coarse;
-    for (int a = 0; a < g.dimension; ++a)
-      master[static_cast<std::size_t>(a)] += corner_offset(c, a);
-    tied.masters[static_cast<std::size_t>(c)] = node_at(master, block.field, level - 1);
-  }
+  for (int c = 0; c < corner_count(g.dimension); ++c)
+    tied.masters[static_cast<std::size_t>(c)] = places.master(local, c);
   tied.beside.fill(kNone);
   for (int a = 0; a < g.dimension; ++a)
     for (const int side : {0, 1}) {
-      std::array<int, 3> next = index;
-      int& i = next[static_cast<std::size_t>(a)];
+      const auto k = static_cast<std::size_t>(a);
+      const int i = block.key.i[k] * edge + local[k], step = side == 0 ? -1 : 1;
       const double plane = side == 0 ? g.lower_storage() : g.upper_storage(a);
-      const bool inside = side == 0 ? i > plane : i < plane;
-      i += side == 0 ? -1 : 1;
-      const bool beyond = side == 0 ? i < plane : i > plane;
-      const Boundary& condition =
-          boundary_.conditions()[static_cast<std::size_t>(a)][static_cast<std::size_t>(side)];
+      const bool crosses = (i - plane) * (i + step - plane) < 0 && step * (plane - i) > 0;
+      const Boundary& condition = boundary_.conditions()[k][static_cast<std::size_t>(side)];
       std::int32_t& at = tied.beside[static_cast<std::size_t>(2 * a + side)];
-      at = inside && beyond && condition.folds() ? kImage : node_at(next, block.field, level);
+      at = crosses && condition.folds() ? kImage : places.beside(local, a, step);
       if (at >= 0)  // slopes read its raw sums
         grid_.node_blocks()[static_cast<std::size_t>(at / kBlockNodes)].at_tie = true;
     }

@@ -66,6 +66,7 @@ void Ties::sweep(Range masters, double smallest_mass, int level) {
           const auto [t, corner] = shares_[static_cast<std::size_t>(k)];
           const Tied& from = tied_[static_cast<std::size_t>(t)];
           const double share = weight(from, corner) * from.sums[summed::mass];
+          if (share == 0) continue;
           for (std::size_t a = 0; a < 3; ++a)
             master.residual[a] += share * (r[moved::change + a] - from.change[a]);
         }

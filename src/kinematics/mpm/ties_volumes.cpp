@@ -11,8 +11,20 @@ void Ties::link_parents() {
   parents_.clear();
   if (grid_.levels().single()) return;
   const int dimension = grid_.geometry().dimension;
+  // Contact looks at blocks that fields share, two nodes around them; and what these are made of.
+  BlockSet shared;
+  for (std::size_t b = 1; b < grid_.node_blocks().size(); ++b)
+    if (grid_.node_blocks()[b].key == grid_.node_blocks()[b - 1].key)
+      for (BlockKey key = grid_.node_blocks()[b].key; shared.insert(key).second && key.level > 0;)
+        key = parent_of(key, dimension);
+  const auto near_shared = [&](const BlockKey& key) {
+    for (int s = 0; s < neighbour_count(dimension); ++s)
+      if (shared.contains(shifted(key, s, dimension))) return true;
+    return false;
+  };
   for (std::size_t b = grid_.node_blocks().size(); b-- > 0;) {
     const NodeBlock& block = grid_.node_blocks()[b];
+    if (!near_shared(block.key)) continue;
     Parent parent{b, {}};
     BlockKey centre = block.key;
     centre.level += 1;

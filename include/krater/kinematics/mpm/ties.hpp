@@ -103,9 +103,11 @@ class Ties {
   };
 
   double* record(std::int32_t node) { return grid_.nodes() + kNodeDoubles * node; }
-  double weight(const Tied& tied, int corner) const;
-  std::int32_t node_at(const std::array<int, 3>& index, FieldId field, int level) const;
-  void add_tied(const NodeBlock& block, int node);
+  double weight(const Tied& tied, int corner) const {  ///< P_nJ
+    return weights_[tied.odd][static_cast<std::size_t>(corner)];
+  }
+  struct Places;
+  void add_tied(const NodeBlock& block, int node, const Places& places);
   void link_masters();
   void link_parents();
   void add_children(const Parent& parent);
@@ -121,8 +123,9 @@ class Ties {
   BlockGrid& grid_;
   const BoundarySet& boundary_;
   WholeVolume whole_volume_;
-  std::vector<Tied> tied_;       ///< by level, block, node
-  std::vector<Master> masters_;  ///< by level, block, node
+  std::array<std::array<double, 8>, 8> weights_{};  ///< by odd axes and corner
+  std::vector<Tied> tied_;                          ///< by level, block, node
+  std::vector<Master> masters_;                     ///< by level, block, node
   std::vector<Share> shares_;
   std::vector<std::int32_t> master_at_;  ///< by node in memory: index in masters_, -1
   std::vector<Range> tied_ranges_, master_ranges_;
