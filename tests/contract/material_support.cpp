@@ -215,6 +215,35 @@ std::vector<double> typical_parameters(const LawInfo& law) {
       {"osborn.K2", -171e9},
       {"osborn.K3", 208e9},
       {"karagozian_case.compressive_strength", 39.3e6},
+      {"cscm.compressive_strength", 39.3e6},
+      {"rht.compressive_strength", 35e6},  // C30/37
+      {"rht.A", 1.6},
+      {"rht.n", 0.61},
+      {"rht.shear_strength", 0.18},
+      {"rht.tensile_strength", 0.1},
+      {"rht.Q0", 0.6805},
+      {"rht.B", 0.0105},
+      {"rht.g_c", 0.53},
+      {"rht.g_t", 0.7},
+      {"rht.hardening", 0.5},
+      {"rht.D1", 0.04},
+      {"rht.D2", 1.0},
+      {"rht.eps_f_min", 0.01},
+      {"rht.A_f", 1.6},
+      {"rht.n_f", 0.61},
+      {"rht.rate_factor", 0.0},
+      {"rht.fracture_energy", 0.0},
+      {"rht.A1", 35.27e9},
+      {"rht.A2", 39.58e9},
+      {"rht.A3", 9.04e9},
+      {"rht.B0", 1.22},
+      {"rht.B1", 1.22},
+      {"rht.T1", 35.27e9},
+      {"rht.T2", 0.0},
+      {"rht.distension", 1.1884},
+      {"rht.elastic_pressure", 23.3e6},
+      {"rht.compaction_pressure", 6e9},
+      {"rht.exponent", 3.0},
       {"kinetic_damage.compressive_strength", 39.3e6},
       {"kinetic_damage.tensile_strength", 3.476e6},
       {"kinetic_damage.intact_slope", 3.0},
@@ -263,7 +292,8 @@ std::vector<double> typical_parameters(const LawInfo& law) {
   for (const ParameterInfo& p : law.parameters) {
     const auto known = values.find(name + '.' + p.key);
     // Of a law that generates its constants the strength is enough.
-    const bool generated = law.name == "karagozian_case" && !std::isnan(p.fallback);
+    const bool generated =
+        !std::isnan(p.fallback) && (law.name == "karagozian_case" || law.name == "cscm");
     result.push_back(known == values.end() && generated ? p.fallback
                                                         : values.at(name + '.' + p.key));
   }

@@ -45,12 +45,19 @@ void take_shear_modulus(MaterialOptions& material, Block& block, Reading& readin
                         .value();
   const double K = material.density * c0 * c0, G = *own;
   const std::optional<double> largest = softening_length(material);
+  std::string more;
+  for (const DerivedConstant& d :
+       derived_constants(material.model->law, material.model->values.data(),
+                         {material.density, G, material.initial_temperature}))
+    more += std::string{", "} + d.name + " = " + rounded(d.value) +
+            (std::string_view{d.unit} == "1" ? "" : std::string{" "} + d.unit);
   reading.scene.notes.push_back(
       material.model->where + ": generated from the strength, uncalibrated: E = " +
       rounded(9 * K * G / (3 * K + G)) + " Pa, Poisson's ratio " +
       rounded((3 * K - 2 * G) / (2 * (3 * K + G))) + ", K = " + rounded(K) + " Pa" +
       (largest ? ", softens by its fracture energy in cells up to " + rounded(*largest) + " m"
-               : ", softens by the cell"));
+               : ", softens by no energy") +
+      more);
 }
 
 void check_softening(const MaterialOptions& material, double length, Block& point) {
