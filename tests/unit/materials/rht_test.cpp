@@ -143,6 +143,7 @@ TEST_SUITE("unit") {
     s.hydrostatic(std::expm1(0.0145), 200);  // 150 MPa: flow does not move the pressure
     while (s.plastic <= 0) s.step({1e-6, -1e-6, 0});
     const double q = s.q(), eps = s.plastic;
+    CHECK(q < 0.02 * c.f);  // pores crush there: the cap has closed
     for (int i = 0; i < 100; ++i) s.step({1e-6, -1e-6, 0});
     CHECK(s.state[0] == 0);
     // The cap, which opens as it flows, is not at work: beyond where it closes sigma_e is 0.
@@ -155,6 +156,15 @@ TEST_SUITE("unit") {
     CHECK(s.failed);
     const double residual = c.f * c.A_f * std::pow(s.p / c.f, c.n_f);
     CHECK(s.q() == Approx(residual * c.surfaces.meridians(s.p / c.f).Q1).epsilon(2e-3));
+  }
+
+  TEST_CASE("rht: fracture strain") {
+    const Rht c = slow();
+    CHECK(c.fracture_strain(0.5, 0.0) == Approx(0.04 * (0.5 + 0.0881717)).epsilon(1e-6));
+    CHECK(c.fracture_strain(0.5, 1.0) == Approx(0.04 * 0.5).epsilon(1e-12));
+    CHECK(c.fracture_strain(-0.05, 0.0) == 0.01);
+    // Without a fracture energy tension has it too, whatever the width.
+    CHECK(c.per_strain(-0.05, 0.0, 1.0) == Approx(100));
   }
 
   TEST_CASE("rht: with a fracture energy direct and triaxial tension dissipate it at any width") {
