@@ -49,6 +49,7 @@ constexpr Magnitude kMagnitudes[] = {
     {any, "b0", "Pa", 1e6, 5e12, 1e11},
     {any, "c0", "Pa", 1e6, 2e13, 1e11},
     {any, "W_c", "Pa", 1e5, 1e11, 1e9},
+    {any, "c1", "Pa", 1e-3, 2e12, 1e3},  // osborn's, of strength that p = 1 Pa adds
     {any, "", "Pa", 1e3, 2e12, 4e8},
     {any, "c0", "m/s", 300, 15e3, 4e3},
     {any, "", "J/kg", 1e4, 1e10, 1e7},

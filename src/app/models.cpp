@@ -67,6 +67,8 @@ void print_models(const char* name) {
           "{:<10} {:<26} {}\n", "card", card,
           unsourced.empty() ? "" : fmt::format("no source for: {}", fmt::join(unsourced, ", ")));
     }
+    for (const std::string& card : scene::generated_cards())
+      fmt::print("{:<10} {}, generated from the strength, uncalibrated\n", "card", card);
     return;
   }
   bool found = std::find(cards.begin(), cards.end(), name) != cards.end();

@@ -46,10 +46,7 @@ struct Assembler {
         factory.make(law.law, law.values, plan.constants, layout));
   }
 
-  bool degrades() const {
-    return plan.damage.law >= 0 &&
-           law_degrades(plan.damage.law, plan.damage.values, plan.constants);
-  }
+  bool degrades() const { return degrades_stress(plan); }
   bool carries() const { return plan.damage.law >= 0 || std::isfinite(plan.spall_strength); }
   bool parts() const {
     return std::isfinite(plan.spall_strength) && plan.spall_action == SpallAction::fail;
@@ -64,12 +61,15 @@ struct Assembler {
   }
 
   void add_part(Part part, const PlannedLaw& law, const std::string& name) {
+    add_part(part, law, name, integrity());
+  }
+  void add_part(Part part, const PlannedLaw& law, const std::string& name, Integrity whole) {
     add(name, factory.part({.part = part,
                             .law = law.law,
                             .values = law.values,
                             .constants = plan.constants,
                             .rate = plan.rate,
-                            .integrity = integrity(),
+                            .integrity = whole,
                             .degrades = degrades(),
                             .degrade = plan.degrade,
                             .dilates = needs.dilates},
@@ -110,7 +110,7 @@ struct Assembler {
 
   void add_model() {
     add_part(Part::start, plan.model, "start of the step");
-    add_part(Part::trial, {}, rate_name());
+    add_part(Part::trial, {}, rate_name(), degrades() ? Integrity::damaged : Integrity::sound);
     add_law(plan.model);
   }
 
@@ -148,6 +148,11 @@ struct Assembler {
 };
 
 }  // namespace
+
+bool degrades_stress(const MaterialPlan& plan) {
+  const PlannedLaw& law = plan.model.law >= 0 ? plan.model : plan.damage;
+  return law.law >= 0 && law_degrades(law.law, law.values, plan.constants);
+}
 
 std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialPlan& plan,
                                     Layout& layout) {

@@ -42,6 +42,7 @@ struct LawAnswers {
   bool degrades = false;
   std::optional<double> thermal_energy = {}, sound_speed = {}, shear_modulus = {}, length = {};
   std::optional<ProgrammedFront> front = {};
+  std::vector<DerivedConstant> derived = {};
 };
 
 template <class Law>
@@ -54,6 +55,8 @@ LawAnswers ask(const double* values, const MaterialConstants& constants) {
   if constexpr (ShearOfState<Law>) answers.shear_modulus = law.G;
   if constexpr (requires { law.largest_length(); })
     if (law.largest_length() > 0) answers.length = law.largest_length();
+  if constexpr (requires { law.derived(); })
+    for (const auto& d : law.derived()) answers.derived.push_back({d.name, d.value, d.unit});
   if constexpr (Burns<Law>)
     if (law.lit()) answers.front = ProgrammedFront{law.D, law.front_width};
   if constexpr (Law::family == Family::eos || Law::family == Family::model)
@@ -134,6 +137,11 @@ std::optional<double> own_shear_modulus(int law, const double* values,
 std::optional<double> largest_length(int law, const double* values,
                                      const MaterialConstants& constants) {
   return answers_of(law, values, constants).length;
+}
+
+std::vector<DerivedConstant> derived_constants(int law, const double* values,
+                                               const MaterialConstants& constants) {
+  return answers_of(law, values, constants).derived;
 }
 
 std::optional<ProgrammedFront> programmed_front(int law, const double* values,

@@ -135,6 +135,11 @@ Matrix3d PathDriver::solve(const PathStep& step) {
     x = i == 0 ? x - (std::isnan(r) ? x : r / modulus) : bracket.next(before, i);
   }
   const FaultKind kind = point_.fault();
+  if (step.control == Control::mean_stress && step.target > 0)
+    throw InputError(fmt::format(
+        "point.path: the material does not bear a mean tension of {:.4g} Pa; stresses are positive "
+        "in tension: write a confinement as a negative lateral_stress, a hydrostat by its pressure",
+        step.target));
   throw NumericalError(fmt::format("{} ({} trials; {}); use more steps or another target",
                                    text_of(step.control), kMostTrials,
                                    kind == FaultKind::none ? "the residual stays" : text_of(kind)));

@@ -141,8 +141,7 @@ void Body::add_stages(const StageFactory& factory) {
   const MaterialPlan plan = material_plan(*material_);
   q_lin_ = plan.q_lin;
   q_quad_ = plan.q_quad;
-  degrades_ =
-      plan.damage.law >= 0 && law_degrades(plan.damage.law, plan.damage.values, plan.constants);
+  degrades_ = degrades_stress(plan);
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
   if (plan.eos.law >= 0)

@@ -16,6 +16,8 @@ from scene_support import Folder, ROOT, check, finish, krater, settings, summary
 
 counter = itertools.count()
 GENERATED = "card: {concrete: {fc: 39.3 MPa, model: karagozian_case}}, rate: jaumann"
+CSCM = "card: {concrete: {fc: 39.3 MPa, model: cscm}}, rate: jaumann"
+RHT = "card: concrete_c30_37_rht, rate: jaumann"
 
 
 def point(material, path, steps=1000, more="", values=(), code=0):
@@ -63,12 +65,26 @@ def laboratory():
 
 
 def energy():
-    """Direct tension of the generated card dissipates G_f (CEB, 68.0 J/m^2) whatever the length."""
-    for length in (2.5, 5, 10):
-        t, s, _ = point(GENERATED, f"uniaxial_stress: {{strain: {0.04 / length}, rate: 1e-6}}", 8000,
-                        f", every: 8, length: {length} mm")
-        near(f"work per area at {length} mm", t["work"][-1] * 2300 * length * 1e-3, 68.0, 0.05)
-        check(s["events"]["failures"] == 1, "it has failed")
+    """Direct tension of the generated cards dissipates G_f (CEB, 68.0 J/m^2) whatever the length."""
+    for card, strain in ((GENERATED, 0.04), (CSCM, 0.5)):
+        for length in (2.5, 5, 10):
+            t, s, _ = point(card, f"uniaxial_stress: {{strain: {strain / length}, rate: 1e-9}}", 8000,
+                            f", every: 8, length: {length} mm")
+            near(f"work per area at {length} mm", t["work"][-1] * 2300 * length * 1e-3, 68.0, 0.05)
+            check(s["events"]["failures"] == 1, "it has failed")
+
+
+def cap_and_pores():
+    """The cap model and RHT by the whole program, and not by its law alone: values of the design's B5.4 and B8."""
+    whole = CSCM + ", model: {cscm: {softening: none, rate_factor: none}}"
+    t, _, _ = point(whole, "uniaxial_stress: {strain: -0.004, rate: 1e-9}", 2000)
+    near("unconfined strength of the cap model", t["von_mises"][-1], 1.000514 * 39.3e6, 1e-3)
+    t, _, _ = point(whole, "hydrostatic: {pressure: [200 MPa, 0 Pa], rate: 1e-9}", 400)
+    near("hydrostat of the cap model", np.log(t["density"].max() / 2300), 0.0246077, 2e-3)
+    t, _, _ = point(RHT, "uniaxial_stress: {strain: -0.004, rate: 1e-9}", 2000)
+    near("unconfined strength of RHT", t["von_mises"].max(), 35e6, 2e-3)
+    t, _, _ = point(RHT, "uniaxial_stress: {strain: 0.0005, rate: 1e-9}", 2000)
+    near("direct tension of RHT", t["stress_xx"].max(), 3.5e6, 2e-3)
 
 
 def said():
@@ -76,6 +92,9 @@ def said():
     check("the law snaps back" in text and s["events"]["snap_backs"] >= 1, "a snap-back is said, not crashed on", text)
     check(re.search(r"generated from the strength, uncalibrated: E = 2.5197e\+10 Pa, Poisson's ratio 0.19", text) is not None,
           "a generated card says so, with what it implies", text)
+    _, _, text = point(CSCM, "uniaxial_stress: {strain: -0.001, rate: 1e-6}", 100, ", length: 5 mm")
+    check("first cap X0 of set fhwa = 9.5514e+07 Pa, unconfined strength over compressive_strength = 1.0005" in text,
+          "the cap model says its set and what it closes at", text)
     _, s, text = point("card: concrete_48", "uniaxial_stress: {strain: -0.005, rate: 1}")
     check("snaps back" not in text and s["events"]["snap_backs"] == 0, "softening alone is no snap-back")
 
@@ -90,6 +109,10 @@ def mistakes():
     refused("f'c outside the range", [r"c\d+\.yaml:1: materials\.m\.model\.karagozian_case", "10 to 100 MPa",
                                      "holmquist_johnson_cook"],
             "card: {concrete: {fc: 150 MPa, model: karagozian_case}}", more=", length: 5 mm")
+    refused("f'c outside the cap model's range", ["fc of a generated card", "20 to 58 MPa", "karagozian_case"],
+            "card: {concrete: {fc: 15 MPa, model: cscm}}", more=", length: 5 mm")
+    refused("a confinement with the wrong sign", ["does not bear a mean tension of 5e.07 Pa", "negative lateral_stress"],
+            "card: concrete_48", "triaxial: {strain: -0.01, rate: 1, lateral_stress: 50 MPa}")
     refused("a model that cannot be generated", [r"materials\.m\.card\.concrete\.model", "known: karagozian_case"],
             "card: {concrete: {fc: 39 MPa, model: holmquist}}")
     refused("no strength to generate from", ["missing key 'fc'", "in Pa"], "card: {concrete: {model: karagozian_case}}")
@@ -119,6 +142,15 @@ def mistakes():
         pathlib.Path("wide.yaml").write_text(wide, encoding="utf-8")
         done = krater("check", "wide.yaml")
         check(done.returncode == 2 and "would snap back" in done.stderr, "a cell that snaps back", done.stderr.strip())
+        brittle = GENERATED.removesuffix(", rate: jaumann") + "\n    model: {karagozian_case: {fracture_energy: 1 J/m^2}}"
+        for kinematics, what in (("lagrangian_mesh: {element: 2 mm}", "elements"), ("sph: {spacing: 2 mm}", "particles")):
+            other = re.sub(r"card: [\w]+", brittle, scene, count=1)
+            other = re.sub(r"    material: copper", f"    kinematics: {{{kinematics}}}\n    material: copper", other, count=1)
+            pathlib.Path("wide.yaml").write_text(other, encoding="utf-8")
+            done = krater("check", "wide.yaml")
+            check(done.returncode == 2 and f"in {what} of 0.00" in done.stderr and "would snap back" in done.stderr,
+                  f"{what} that snap back", done.stderr.strip())
+
 
 
 def picture():
@@ -133,6 +165,7 @@ def picture():
 with Folder():
     laboratory()
     energy()
+    cap_and_pores()
     said()
     mistakes()
     picture()

@@ -46,6 +46,9 @@ struct MaterialPlan {
   double q_lin = 0, q_quad = 0;  ///< of the viscosity
 };
 
+/// Does its damage weaken the stress, s = (1 - phi) s~?
+bool degrades_stress(const MaterialPlan& plan);
+
 /// The stages in the order in which they are applied. The method has declared its columns and
 /// locals before; the layout is not yet checked.
 std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialPlan& plan,

@@ -44,7 +44,7 @@ std::vector<std::string> law_names(std::string_view family);
 /// it is a number.
 std::vector<std::string> parameter_words(const ParameterInfo& info);
 
-/// Does a damage law degrade the stress, or only tell the failure?
+/// Does a damage law, or a model, degrade the stress, or only tell the failure?
 bool law_degrades(int law, const double* values, const MaterialConstants& constants);
 
 /// Heat c_v T that an equation of state with a caloric relation of its own has at the start
@@ -64,6 +64,15 @@ std::optional<double> own_shear_modulus(int law, const double* values,
 /// snap back in a wider one. Nothing where no energy rules the softening.
 std::optional<double> largest_length(int law, const double* values,
                                      const MaterialConstants& constants);
+
+/// A constant that a law makes of its parameters and a user wants to know.
+struct DerivedConstant {
+  const char* name;
+  double value;
+  const char* unit;
+};
+std::vector<DerivedConstant> derived_constants(int law, const double* values,
+                                               const MaterialConstants& constants);
 
 /// The front that burns an explosive; nothing where none does.
 struct ProgrammedFront {

@@ -19,12 +19,14 @@
 #include "krater/materials/eos/tillotson.hpp"
 #include "krater/materials/heating/internal_energy.hpp"
 #include "krater/materials/heating/plastic_work.hpp"
+#include "krater/materials/model/cscm.hpp"
 #include "krater/materials/model/drucker_prager_cap.hpp"
 #include "krater/materials/model/holmquist_johnson_cook.hpp"
 #include "krater/materials/model/johnson_holmquist_2.hpp"
 #include "krater/materials/model/karagozian_case.hpp"
 #include "krater/materials/model/kinetic_damage.hpp"
 #include "krater/materials/model/osborn.hpp"
+#include "krater/materials/model/rht.hpp"
 #include "krater/materials/strength/drucker_prager.hpp"
 #include "krater/materials/strength/elastic.hpp"
 #include "krater/materials/strength/johnson_cook.hpp"
@@ -72,6 +74,8 @@ using AllLaws = LawList<Elastic,                 //
                         Osborn,                  //
                         DruckerPragerCap,        //
                         KaragozianCase,          //
+                        Cscm,                    //
+                        Rht,                     //
                         KineticDamage,           //
                         JohnsonHolmquist2,       //
                         BulkViscosity,           //

@@ -170,6 +170,8 @@ struct CardSummary {
 namespace scene {
 CardSummary read_card(const std::string& name);  ///< throws InputError
 std::vector<std::string> known_cards();
+/// What stands in a scene for a card that is generated, one example a model.
+std::vector<std::string> generated_cards();
 }  // namespace scene
 
 }  // namespace krater

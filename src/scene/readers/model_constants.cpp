@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "krater/geometry/meshes/mesh.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "scene/readers/readers.hpp"
 
@@ -45,12 +46,19 @@ void take_shear_modulus(MaterialOptions& material, Block& block, Reading& readin
                         .value();
   const double K = material.density * c0 * c0, G = *own;
   const std::optional<double> largest = softening_length(material);
+  std::string more;
+  for (const DerivedConstant& d :
+       derived_constants(material.model->law, material.model->values.data(),
+                         {material.density, G, material.initial_temperature}))
+    more += std::string{", "} + d.name + " = " + rounded(d.value) +
+            (std::string_view{d.unit} == "1" ? "" : std::string{" "} + d.unit);
   reading.scene.notes.push_back(
       material.model->where + ": generated from the strength, uncalibrated: E = " +
       rounded(9 * K * G / (3 * K + G)) + " Pa, Poisson's ratio " +
       rounded((3 * K - 2 * G) / (2 * (3 * K + G))) + ", K = " + rounded(K) + " Pa" +
       (largest ? ", softens by its fracture energy in cells up to " + rounded(*largest) + " m"
-               : ", softens by the cell"));
+               : ", softens by no energy") +
+      more);
 }
 
 void check_softening(const MaterialOptions& material, double length, Block& point) {
@@ -59,18 +67,42 @@ void check_softening(const MaterialOptions& material, double length, Block& poin
     point.fail(problem_of(material, *largest, length, "a point of length"));
 }
 
+namespace {
+
+/// Over what a body's softening localises, and where a user sets it.
+struct Width {
+  double length;  ///< [m]
+  const char* what;
+  const Node& place;
+  std::string path;
+};
+Width width_of(const BodyOptions& body, const Reading& reading) {
+  const Scene& scene = reading.scene;
+  const Node* grid = reading.root.find("grid");
+  if (body.material_points())
+    return {scene.grid.cell, "cells", grid ? *grid : reading.root, "grid.cell"};
+  const Node* own = reading.root.find("bodies")->find(body.name);
+  const Node& place = own ? *own : reading.root;
+  const std::string path = "bodies." + body.name + ".kinematics";
+  if (body.sph) return {body.sph->spacing, "particles", place, path};
+  const double edge = body.mesh->mesh ? mesh_quality(*body.mesh->mesh).longest : body.mesh->element;
+  return {edge, "elements", place, path};
+}
+
+}  // namespace
+
 void check_softening(Reading& reading) {
   const Scene& scene = reading.scene;
   for (const BodyOptions& body : scene.bodies) {
-    if (body.material < 0 || !body.material_points() || body.rigid()) continue;
+    if (body.material < 0 || body.rigid()) continue;
     const MaterialOptions& m = scene.materials[static_cast<std::size_t>(body.material)];
     const std::optional<double> largest = m.model ? softening_length(m) : std::nullopt;
-    if (!largest || scene.grid.cell <= *largest) continue;
-    const Node* grid = reading.root.find("grid");
-    const Node& place = grid ? *grid : reading.root;
+    if (!largest) continue;
+    const Width width = width_of(body, reading);
+    if (width.length <= *largest) continue;
     reading.problems.add(
-        place.file, place.line, "grid.cell",
-        "body " + body.name + ": " + problem_of(m, *largest, scene.grid.cell, "cells"));
+        width.place.file, width.place.line, width.path,
+        "body " + body.name + ": " + problem_of(m, *largest, width.length, width.what));
   }
 }
 

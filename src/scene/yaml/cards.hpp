@@ -15,8 +15,8 @@
 /// `unsourced: [spall_strength, heating.plastic_work.cp]` in a card names the values that no source
 /// was read for; `krater check` and `krater models` repeat them.
 ///
-/// `card: {concrete: {fc: 39 MPa, model: karagozian_case}}` is generated from a strength instead of
-/// read: uncalibrated, and said so.
+/// `card: {concrete: {fc: 39 MPa, model: karagozian_case}}` (or cscm) is generated from a strength
+/// instead of read: uncalibrated, and said so.
 #include <string>
 #include <vector>
 

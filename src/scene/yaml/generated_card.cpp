@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <iterator>
+
 #include "krater/core/parameters.hpp"
 #include "scene/yaml/block.hpp"
 #include "scene/yaml/cards.hpp"
@@ -13,6 +16,9 @@ constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, 2300.0,
                                  "of ordinary concrete"};
 constexpr ParameterInfo kGrain{"aggregate_size", "m", Range::positive, 9.5e-3,
                                "largest grain, for the fracture energy"};
+
+/// Laws that make all their constants of a strength and a grain.
+constexpr const char* kGenerated[] = {"karagozian_case", "cscm"};
 
 /// A copy of a node's place, as a map or a scalar at another path.
 Node placed(const Node& at, const std::string& path, Node value) {
@@ -38,18 +44,26 @@ Node generated_card(const Node& card, const std::string& path, Problems& problem
   Block block{&card.items[0], card.path + ".concrete", card, problems};
   const double f = block.number(kStrength), density = block.number(kDensity),
                grain = block.number(kGrain);
-  const Node* model = block.require("model", "karagozian_case can be generated");
-  if (model && model->text != "karagozian_case")
-    report_unknown(*model, "model to generate", model->text, {"karagozian_case"}, problems);
+  const Node* model = block.require("model", "karagozian_case and cscm can be generated");
+  const std::vector<std::string> known{std::begin(kGenerated), std::end(kGenerated)};
+  if (model && std::count(known.begin(), known.end(), model->text) == 0)
+    report_unknown(*model, "model to generate", model->text, known, problems);
   block.finish();
   add_member(made, "density", number_node(density));
   Node law, family;
   law.kind = family.kind = Node::Kind::map;
   add_member(law, "compressive_strength", number_node(f));
   add_member(law, "aggregate_size", number_node(grain));
-  add_member(family, "karagozian_case", law);
+  add_member(family, model ? model->text : known[0], law);
   add_member(made, "model", family);
   return placed(card, path, made);
+}
+
+std::vector<std::string> generated_cards() {
+  std::vector<std::string> cards;
+  for (const char* model : kGenerated)
+    cards.push_back(std::string{"{concrete: {fc: 39 MPa, model: "} + model + "}}");
+  return cards;
 }
 
 }  // namespace krater::scene

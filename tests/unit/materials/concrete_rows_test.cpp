@@ -88,6 +88,8 @@ TEST_SUITE("unit") {
     for (const ConcreteRow& row : concrete_rows("hjc", "hjc_48/A", "rate_factor"))
       CHECK(hjc.f * hjc.strength(0.0, 1.0, std::max(1.0, row["rate"])) ==
             Approx(row["q"]).epsilon(1e-6));
+    // The largest strength is applied after the rate: that does not lift it.
+    CHECK(hjc.strength(0.0, 20.0, 1000.0) == hjc.S_max);
   }
 
   TEST_CASE("concrete rows: triaxial peaks with the damage of crushing, every card") {

@@ -47,6 +47,12 @@ void for_each_model(auto check) {
             "MPa, crush_compression: 7.947e-4, lock_pressure: 0.8 GPa, lock_compression: 0.1269, "
             "K1: 85 GPa, K2: -171 GPa, K3: 208 GPa}}"));
   check("karagozian_case", law_of<KaragozianCase>(kKc));
+  for (const char* f : {"22.75 MPa", "39.3 MPa"})
+    check(f, law_of<Cscm>(std::string{"density: 2243, model: {cscm: {compressive_strength: "} + f +
+                          ", rate_factor: none}}"));
+  for (const char* more : {"", "model: {rht: {rate_factor: none, fracture_energy: 100 J/m^2}}"})
+    check("rht", law_of_card<Rht>("concrete_c30_37_rht", more));
+  check("viscous", law_of<Cscm>("density: 2243, model: {cscm: {compressive_strength: 39.3 MPa}}"));
 }
 
 /// Corners of a path: strains, of sizes from the elastic to `most`.

@@ -44,12 +44,20 @@ struct ModelSpecimen {
     }
   }
 
+  /// Of a law that degrades the deviator by its first column.
+  double integrity() const {
+    if constexpr (requires { law.degrades(); })
+      return law.degrades() ? 1 - state[0] : 1.0;
+    else
+      return 1.0;
+  }
+
   void step(const Triple& d) {
-    const double mean = (d[0] + d[1] + d[2]) / 3, G = shear_modulus();
+    const double mean = (d[0] + d[1] + d[2]) / 3, G = shear_modulus(), undamaged = integrity();
     Triple trial;
     double norm = 0;
     for (unsigned k = 0; k < 3; ++k) {
-      trial[k] = s[k] + 2 * G * (d[k] - mean);
+      trial[k] = s[k] / undamaged + 2 * G * (d[k] - mean);
       norm += (d[k] - mean) * (d[k] - mean);
       eps[k] += d[k];
     }
@@ -61,14 +69,17 @@ struct ModelSpecimen {
     if (step.dt <= 0) step.dt = 1;
     const auto u = law.at(state).update(step);
     const double scale = u.q >= step.q ? 1.0 : u.q / step.q;
-    const double p_end = std::max(u.least, u.pressure.cold), v_end = 1 / rho;
-    double work = 0.5 * (p + p_end) * (v - v_end);
+    const double v_end = 1 / rho, dv = v_end - v;
+    energy -= 0.5 * p * dv;
     for (unsigned k = 0; k < 3; ++k) {
       const double end = trial[k] * scale;
-      work += 0.5 * (v + v_end) * 0.5 * (s[k] + end) * (d[k] - mean);
+      energy += 0.5 * (v + v_end) * 0.5 * (s[k] + end) * (d[k] - mean);
       s[k] = end;
     }
-    p = p_end, v = v_end, energy += work, plastic += u.plastic, crush += u.crush;
+    const double thermal = u.pressure.thermal;
+    p = std::max(u.least, (u.pressure.cold + thermal * energy) / (1 + 0.5 * thermal * dv));
+    energy -= 0.5 * p * dv;
+    v = v_end, plastic += u.plastic, crush += u.crush;
     plastic_work += u.q * u.plastic * v;
     modulus = u.modulus;
     state = u.state;

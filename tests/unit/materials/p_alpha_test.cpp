@@ -70,10 +70,11 @@ TEST_SUITE("unit") {
     const auto start = at_start(eos);
     for (const double p : {0.09e9, 0.2e9, 0.45e9, 0.59e9}) {
       CAPTURE(p);
-      CHECK(eos.crush(p).alpha == Approx(curve(p)).epsilon(1e-12));
-      CHECK(eos.crush_pressure(curve(p)) == Approx(p).epsilon(1e-10));
+      CHECK(eos.pores.crush(p).alpha == Approx(curve(p)).epsilon(1e-12));
+      CHECK(eos.pores.crush_pressure(curve(p)) == Approx(p).epsilon(1e-10));
       const double h = 1e-4 * p;
-      CHECK(eos.crush(p).slope == Approx((curve(p + h) - curve(p - h)) / (2 * h)).epsilon(1e-6));
+      CHECK(eos.pores.crush(p).slope ==
+            Approx((curve(p + h) - curve(p - h)) / (2 * h)).epsilon(1e-6));
       // The density at which the solid of that distension bears alpha p, by bisection.
       const double alpha = curve(p), e = 1000.0;
       double low = 0.9 * kSolid, high = 1.3 * kSolid;

@@ -10,6 +10,9 @@
 ///   static constexpr bool fails                         `failed` of the update means something
 ///   double largest_length() const      softening by an energy per area G_f (optional): the largest
 ///                                      width that does not snap back [m]; 0: softens by no energy
+///   std::array<Derived, N> derived() const   constants made of the parameters, told (optional)
+///   bool degrades() const              its first column is field::Damage d, and s = (1 - d) s~:
+///                                      the trial is that of s~ (optional)
 ///   Real shear_modulus(state)          G varies with the state (optional; then no shear_modulus of
 ///                                      the material is needed)
 /// The stage (stages/coupled_stage.hpp) does what no law should have to know: the objective trial,
@@ -48,6 +51,13 @@ struct CoupledUpdate {
   Real crush;  ///< heat of the change of volume [J/kg]: its work less what unloading gives back
   std::array<Real, N> state;
   MaskOf<Real> failed;  ///< bears no tension any more; what is left of its deviator is the law's
+};
+
+/// catalogue.hpp's DerivedConstant, for laws.
+struct Derived {
+  const char* name;
+  double value;
+  const char* unit;
 };
 
 template <class Law>

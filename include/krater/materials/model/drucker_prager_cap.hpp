@@ -12,8 +12,8 @@
 /// the unconfined strength stays f, X0 = f (1 + r/sqrt3) and D1 = -ln(0.05)/(3 p_lock - X0): at
 /// p_lock 95 % of the air voids W are closed.
 ///
-/// Tension: below the apex J1 = -k/alpha the material parts: the pressure stays there and returns
-/// on closing only.
+/// Tension: what lies below the apex J1 = -k/alpha after flow parts: the pressure stays there and
+/// returns on closing only.
 ///
 /// Assumptions: perfectly plastic, so nothing softens and there is no fracture energy; no rate; no
 /// third invariant; no energy in the pressure.
@@ -91,12 +91,8 @@ struct DruckerPragerCap {
   struct Surface {
     double alpha, k, shape, apex;
     template <class Real>
-    KRATER_FORCE_INLINE Real strength(Real J1) const {
-      return fma(Real(alpha), J1, Real(k));
-    }
-    template <class Real>
-    KRATER_FORCE_INLINE Real slope(Real) const {
-      return Real(alpha);
+    KRATER_FORCE_INLINE CapSurface<Real> at(Real J1) const {
+      return {fma(Real(alpha), J1, Real(k)), Real(alpha), Real(0.0)};
     }
     template <class Real>
     KRATER_FORCE_INLINE Real corner(Real X) const {
@@ -112,25 +108,23 @@ struct DruckerPragerCap {
     KRATER_FORCE_INLINE CoupledUpdate<Real, 2> update(const CoupledStep<Real>& step) const {
       const Surface surface{law.alpha, law.k, law.shape, -law.k / law.alpha};
       const Real strain = log(step.rho * (1.0 / law.rho0));
-      const Real trial = 3.0 * law.K * (strain - volume), apex = Real(surface.apex);
-      // Beyond the apex nothing flows: the material parts there.
-      const Real reached = max(apex, trial);  // this order keeps a NaN
-      const CapState<Real> end =
+      const Real trial = 3.0 * law.K * (strain - volume);
+      const Real kappa = surface.corner(law.hardening.reach(eps_c));
+      const CapEnd<Real> end =
           cap_return(surface, law.hardening, ElasticPair{law.K, law.G}, law.dilatancy, Real(1.0),
-                     CapState<Real>{reached, step.q, eps_c});
-      const Real flowed = (reached - end.J1) * (1.0 / (3.0 * law.K));
-      const Real parted = (trial - reached) * (1.0 / 3.0);
+                     CapState<Real>{trial, step.q, kappa});
+      const Real flowed = (trial - end.parted - end.J1) * (1.0 / (3.0 * law.K));
       const Real plastic = (step.q - end.q) * (1.0 / (3.0 * law.G));
       // Dilation works against the pressure: then this is negative, but never the whole.
       const Real crush =
           max(-end.q * plastic, end.J1 * (1.0 / 3.0) * flowed) * step.v;  // this order keeps a NaN
       return {min(step.q, end.q),
               plastic,
-              {fma(Real(1.0 / 3.0), end.J1, parted), Real(0.0)},
+              {(end.J1 + end.parted) * (1.0 / 3.0), Real(0.0)},
               Real(surface.apex / 3.0),
               Real(law.K),
               crush,
-              {end.eps_c, volume + flowed},
+              {eps_c + max(Real(0.0), flowed), volume + flowed},
               Real(1.0) < Real(0.0)};
     }
   };

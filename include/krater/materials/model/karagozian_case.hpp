@@ -213,12 +213,15 @@ struct KaragozianCase {
     const double E = 3.0 * modulus0 * (1.0 - 2.0 * nu);
     return std::fmin(E / (strength_t * steepest * per_length_t), 1.0 / elastic_share);
   }
+  std::array<Derived, 2> derived() const {
+    return {{{"direct tension", strength_t, "Pa"}, {"G_f", fracture, "J/m^2"}}};
+  }
   const char* problem() const {
     constexpr double MPa = 1e6;
     if (!(nu < 0.5)) return "poisson_ratio must lie below 0.5";
     if (f < 10.0 * MPa || f > 100.0 * MPa)
-      return "compressive_strength: the constants are generated for 10 to 100 MPa; use "
-             "holmquist_johnson_cook with a card beyond";
+      return "compressive_strength (fc of a generated card): the constants are generated for 10 to "
+             "100 MPa; use holmquist_johnson_cook with a card beyond";
     if (!(strength_t < f / 3.0)) return "tensile_strength must lie below a third of f";
     for (const double at : {1.0 / 3.0, 2.3 / 3.0})
       if (!(surfaces.psi(at) >= 0.5 && surfaces.psi(at) <= 1.0))
