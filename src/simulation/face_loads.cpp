@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which points belong to the faces of loads: at the start, by the body's own shape.
 #include <algorithm>
+#include <cmath>
 
 #include "krater/core/errors.hpp"
 #include "krater/kinematics/mpm/node_loads.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
 #include "krater/points/load_fields.hpp"
 #include "krater/simulation/face_loads.hpp"
 
@@ -19,22 +21,35 @@ std::vector<int> loads_of(const Scene& scene, int body) {
   return out;
 }
 
-bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, const Triple& x) {
+namespace {
+
+double depth_of(const Scene& scene, const FaceLoad& load, const BodyOptions& body) {
+  if (body.sph) return sph_load_depth(*body.sph, load.kind);
+  return (load.kind == FaceLoad::Kind::velocity ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
+}
+
+}  // namespace
+
+bool lies_on_face(const Scene& scene, const FaceLoad& load, const BodyOptions& body,
+                  const Triple& x) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(scene.frame)); ++a)
     if (x[a] < load.region[a][0] || x[a] > load.region[a][1]) return false;
   if (load.inside && !load.inside(x)) return false;
   if (load.axis < 0) return true;
-  const double depth =
-      (load.kind == FaceLoad::Kind::velocity ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
   const auto a = static_cast<std::size_t>(load.axis);
-  const double end = load.side == 0 ? scene.grid.min[a] : scene.grid.max[a];
+  const std::size_t side = load.side == 0 ? 0 : 1;
+  const std::array<double, 2> domain{scene.grid.min[a], scene.grid.max[a]};
   Spans spans;
-  solid.spans(along_axis(to_space(scene.frame, x), tensor_axis(scene.frame, load.axis)), spans);
-  const auto distance = [&](const Span& span) {
-    return load.side == 0 ? x[a] - std::max(span.low, end) : std::min(span.high, end) - x[a];
-  };
+  body.solid->spans(along_axis(to_space(scene.frame, x), tensor_axis(scene.frame, load.axis)),
+                    spans);
   return std::any_of(spans.begin(), spans.end(), [&](const Span& span) {
-    return x[a] >= span.low && x[a] <= span.high && distance(span) <= depth;
+    const std::array<double, 2> ends{std::max(span.low, domain[0]), std::min(span.high, domain[1])};
+    double depth = depth_of(scene, load, body);
+    // The sums of particles know the faces on both sides; what a mirror completes has only one.
+    const bool mirrored = ends[1 - side] == domain[1 - side] &&
+                          scene.grid.boundary[a][1 - side].kind == BoundaryKind::symmetry;
+    if (body.sph && !mirrored) depth = std::min(depth, 0.5 * (ends[1] - ends[0]));
+    return x[a] >= span.low && x[a] <= span.high && std::abs(x[a] - ends[side]) <= depth;
   });
 }
 

@@ -30,8 +30,8 @@ REFUSED = {
     "points of another lattice": (["bodies.rod.points={per_direction: 3}"], "lattice of its own spacing"),
     "a rigid body": (["bodies.rod.rigid=free"], "cannot be rigid"),
     "the method's reference": (["method.reference=initial"], "sph: {reference: initial}"),
-    "a load": (["damping={mass: 1e3 1/s}"], "neither body_force, damping nor loads"),
-    "a side that drives": (["grid.boundary.z_max={velocity: [0, 0, -1 m/s]}"], "no side that drives"),
+    "a load on no particle": (["loads={push: {body: rod, face: z_max, pressure: 1 GPa, where: {x_min: 9 mm}}}"],
+                              "nothing to act on"),
     "another body without contact":
         (["bodies.ball={material: copper, shape: {sphere: {radius: 2 mm, center: [8 mm, 8 mm, 8 mm]}}}"],
          "add a block contact"),

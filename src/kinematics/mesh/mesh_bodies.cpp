@@ -164,7 +164,7 @@ MeshStep::MeshStep(const DomainSides& domain, const MeshKernels& kernels, Audit&
       pushing_{pushing_sides(domain)},
       kernels_{kernels},
       audit_{audit},
-      loads_{std::make_unique<MeshLoads>(LoadOptions{}, BodyForce{}, domain.frame)} {}
+      loads_{std::make_unique<MeshLoads>(LoadOptions{}, Acceleration{}, domain.frame)} {}
 
 MeshStep::~MeshStep() = default;
 

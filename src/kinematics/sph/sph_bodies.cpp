@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "kinematics/sph/particles.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
+#include "krater/points/load_fields.hpp"
 
 namespace krater {
 
@@ -27,6 +29,7 @@ SphColumns columns_of(const Layout& layout) {
           .viscous = state(field::ViscousPressure{}),
           .energy = state(field::InternalEnergy{}),
           .sound_speed = state(field::SoundSpeed{}),
+          .share = state(field::LoadShare{}),
           .local_gradient = local(field::StepGradient{}),
           .local_rate = local(field::DilatationRate{}),
           .local_shear = local(field::ShearModulus{}),
@@ -75,12 +78,13 @@ void make_room(int dim, SphStep::Particles& body) {
 
 }  // namespace
 
-void declare_particles(double density, Layout& layout) {
+void declare_particles(double density, bool face_loads, Layout& layout) {
   layout.state<field::Id>(0, kMethod);
   layout.state<field::Position>(0, kMethod);
   layout.state<field::Velocity>(0, kMethod);
   layout.state<field::Mass>(0, kMethod);
   layout.state<field::Density>(density, kMethod);
+  if (face_loads) layout.state<field::LoadShare>(0, kMethod);
   layout.local_output<field::StepGradient>(kMethod);
 }
 
@@ -95,12 +99,20 @@ SphStep::SphStep(const DomainSides& domain, IsaLevel level, Audit& audit)
       dim_{dimension(domain.frame)},
       level_{level},
       pushing_{pushing_sides(domain)},
-      audit_{audit} {
+      audit_{audit},
+      loads_{std::make_unique<SphLoads>(LoadOptions{}, Acceleration{}, dimension(domain.frame))} {
   if (domain.frame == Frame::axisymmetric)
     throw std::invalid_argument("particles in axial symmetry");
 }
 
 SphStep::~SphStep() = default;
+
+void SphStep::set_loads(std::unique_ptr<SphLoads> loads) { loads_ = std::move(loads); }
+
+void SphStep::set_time(double time) {
+  loads_->set_time(time);
+  for (PushingSide& side : pushing_) side.set_time(time);
+}
 
 void SphStep::add(SphBody made_of) {
   auto body = std::make_unique<Particles>();

@@ -5,6 +5,7 @@
 
 #include "kinematics/sph/particles.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
 
 namespace krater {
 
@@ -144,6 +145,30 @@ void SphStep::find_forces() {
   find_limit(results);
   for (std::size_t c = 0; c < chunks_.size(); ++c)
     bodies_[chunks_[c].body]->flat += static_cast<std::size_t>(results[c].flat);
+  find_areas();
+}
+
+/// Of the bodies that are pressed, by the sweep that sums forces; nothing else reads their records
+/// of load from here on.
+void SphStep::find_areas() {
+  const auto pressed = [&](const Particles& b) { return loads_->presses(b.made_of.body); };
+  if (std::none_of(bodies_.begin(), bodies_.end(), [&](const auto& b) { return pressed(*b); }))
+    return;
+  over_groups([&](Particles& b, const SphData& d, int first, int last, std::size_t) {
+    if (pressed(b)) b.kernels->show_unit(d, first, last);
+  });
+  for (auto& b : bodies_) {
+    if (!pressed(*b)) continue;
+    b->neighbours.reflect_load(b->load.data());
+    b->areas.reserve(7 * b->group_count() * kLanes);
+  }
+  over_groups([&](Particles& b, SphData d, int first, int last, std::size_t) {
+    if (!pressed(b)) return;
+    d.zero_energy = d.artificial_stress = 0;
+    d.force = b.areas.data();
+    d.held = d.force + 3 * kLanes * d.groups;
+    b.kernels->forces(d, first, last);
+  });
 }
 
 Triple SphStep::force_of(int s, int i) const {
@@ -169,7 +194,17 @@ double SphStep::force(double dt) {
       change[3] = 0;
     }
   });
+  for (auto& b : bodies_) loads_->add(*b, dt);
   return dt;
+}
+
+/// Planes of symmetry are booked as what all but them leaves (push_from_sides).
+void SphStep::book_loads() {
+  for (auto& b : bodies_) {
+    const Triple given = loads_->book(*b, audit_);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
+      if (mirrored(a)) audit_.wall_impulse[a] -= given[a];
+  }
 }
 
 void SphStep::push_from_sides(Particles& b, int first, int last, double dt, SideSums& sums) const {
@@ -181,12 +216,12 @@ void SphStep::push_from_sides(Particles& b, int first, int last, double dt, Side
     const double mass = b.points.at(b.columns.mass, i);
     Triple v = before, all{};
     for (std::size_t a = 0; a < dim; ++a) {
-      if (domain_.sides[a][0].kind == BoundaryKind::symmetry ||
-          domain_.sides[a][1].kind == BoundaryKind::symmetry)
+      if (mirrored(a))
         sums.impulse[a] += mass * change[a];  // of the images: all else is between particles
       v[a] += change[a];
     }
     bool pushed = false;
+    double given = 0;  // work of sides that move, per mass
     for (std::size_t s = 0; s < pushing_.size(); ++s) {
       const double missing =
           pushing_[s].missing(x, v, b.standoff[s][static_cast<std::size_t>(i)], dt);
@@ -196,6 +231,7 @@ void SphStep::push_from_sides(Particles& b, int first, int last, double dt, Side
       for (std::size_t a = 0; a < dim; ++a) {
         v[a] += push[a];
         all[a] += push[a];
+        given += push[a] * pushing_[s].velocity[a];
       }
     }
     if (!pushed) continue;
@@ -204,6 +240,8 @@ void SphStep::push_from_sides(Particles& b, int first, int last, double dt, Side
       change[3] -= all[a] * (before[a] + 0.5 * change[a]);
       sums.impulse[a] += mass * all[a];
     }
+    change[3] += given;
+    sums.work += mass * given;
     sums.heat += mass * change[3];
   }
 }
@@ -215,11 +253,13 @@ void SphStep::meet(double dt) {
   });
   for (const SideSums& s : sums) {
     audit_.wall_heat += s.heat;
+    audit_.wall_work += s.work;
     for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += s.impulse[a];
   }
 }
 
 Standing SphStep::move(double dt, const Standing& others) {
+  book_loads();
   over_groups([](Particles& b, const SphData& d, int first, int last, std::size_t) {
     b.kernels->place(d, true, first, last);
   });
@@ -269,7 +309,7 @@ std::size_t SphStep::memory() const {
   for (const auto& b : bodies_) {
     for (const AlignedBuffer* buffer :
          {&b->motion, &b->load, &b->correction, &b->power, &b->force, &b->held, &b->remembered,
-          &b->reference, &b->deformation, &b->changes})
+          &b->reference, &b->deformation, &b->changes, &b->areas})
       bytes += 8 * buffer->size();
     bytes += 8 * b->points.capacity() + b->neighbours.memory();
   }

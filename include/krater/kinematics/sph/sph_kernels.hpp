@@ -24,6 +24,7 @@ namespace krater {
 /// Offsets in the record of a group; -1: absent.
 struct SphColumns {
   int id, position, velocity, mass, density, stress, pressure, viscous, energy, sound_speed;
+  int share;  ///< marks of loads
   int local_gradient, local_rate, local_shear;
   int stride, local_stride;
 };
@@ -92,6 +93,8 @@ class SphKernels {
   /// K, sigma : L of the velocities now, records of load, and what the state allows of a step.
   virtual void correct(const SphData& data, int first, int last, SphResult& out) const = 0;
   virtual void forces(const SphData& data, int first, int last) const = 0;
+  /// A in the records of load is that of a stress of one.
+  virtual void show_unit(const SphData& data, int first, int last) const = 0;
   /// Work, strain and stages of a step dt; places and velocities at its end.
   virtual void strain(const SphData& data, const SphScratch& scratch, double dt, int first,
                       int last, SphResult& out) const = 0;

@@ -36,6 +36,7 @@ class Sweeps final : public SphKernels {
   void place(const SphData& d, bool ends, int first, int last) const override;
   void correct(const SphData& d, int first, int last, SphResult& out) const override;
   void forces(const SphData& d, int first, int last) const override;
+  void show_unit(const SphData& d, int first, int last) const override;
   void strain(const SphData& d, const SphScratch& scratch, double dt, int first, int last,
               SphResult& out) const override;
 
@@ -50,6 +51,8 @@ class Sweeps final : public SphKernels {
                                  const Load& near, const Pack (&x)[Dim], Pack squared);
   template <bool Held>
   static void sum_forces(const SphData& d, int first, int last);
+  static Mat3<Pack> on_reference(const SphData& d, const SphViews& view, const Mat3<Pack>& stress,
+                                 int g);
   static Mat3<Pack> gradient(const SphData& d, const Axes<Dim>& N, const SymAxes<Pack, Dim>& K,
                              int g);
   static void strain_group(const SphData& d, const SphScratch& w, const SphViews& view, double dt,
@@ -120,6 +123,20 @@ KRATER_FORCE_INLINE Mat3<Pack> Sweeps<Dim, Kind, Reference>::gradient(const SphD
   return rate;
 }
 
+/// S of a stress.
+template <int Dim, SphKernel Kind, SphReference Reference>
+KRATER_FORCE_INLINE Mat3<Pack> Sweeps<Dim, Kind, Reference>::on_reference(const SphData& d,
+                                                                          const SphViews& view,
+                                                                          const Mat3<Pack>& stress,
+                                                                          int g) {
+  if constexpr (fixed)
+    return (d.density / view.density(g)) * (stress * transpose(inverse(load_deformation(d, g))));
+  (void)d;
+  (void)view;
+  (void)g;
+  return stress;
+}
+
 KRATER_FORCE_INLINE void note_rate(const SphData& d, Pack rate, int kind, int g, SphResult& out) {
   const Pack valid = select(first_lanes(d.count - kLanes * g), rate, Pack(0.0));
   if (!(hmax(valid) > out.max_rate)) return;
@@ -185,10 +202,7 @@ void Sweeps<Dim, Kind, Reference>::correct(const SphData& d, int first, int last
     const Sym3<Pack> sigma = whole_stress(view, g);
     const Mat3<Pack> L = gradient(d, N, K, g);
     store(d.power + kLanes * g, contract(sigma, sym(L)));
-    Mat3<Pack> S = as_matrix(sigma);
-    if constexpr (fixed)
-      S = (d.density / view.density(g)) * (S * transpose(inverse(load_deformation(d, g))));
-    const Axes<Dim> A = times(along_grid<Dim>(S), K);
+    const Axes<Dim> A = times(along_grid<Dim>(on_reference(d, view, as_matrix(sigma), g)), K);
     Pack r[at.size / 8][8];
     const auto put = [&r](int place, Pack value) { r[place / 8][place % 8] = value; };
     for (int k = 0; k < at.size; ++k) put(k, Pack(0.0));
@@ -289,6 +303,21 @@ void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last)
     sum_forces<true>(d, first, last);
   else
     sum_forces<false>(d, first, last);
+}
+
+template <int Dim, SphKernel Kind, SphReference Reference>
+void Sweeps<Dim, Kind, Reference>::show_unit(const SphData& d, int first, int last) const {
+  alignas(64) static constexpr double zeros[kLanes] = {};
+  const SphViews view = views_of(d, zeros);
+  const Pack one = 1.0, none = 0.0;
+  for (int g = first; g < last; ++g) {
+    const Mat3<Pack> S =
+        on_reference(d, view, {one, none, none, none, one, none, none, none, one}, g);
+    const Axes<Dim> A = times(along_grid<Dim>(S), load_correction<Dim>(d, g));
+    for (int k = 0; k < Dim * Dim; ++k)
+      for (int l = 0; l < kLanes; ++l)
+        d.load[at.size * (kLanes * g + l) + at.A + k] = get(A.c[k / Dim][k % Dim], l);
+  }
 }
 
 /// Before the stages: work into e, strain, places.
