@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which points belong to the faces of loads: at the start, by the body's own shape.
 #include <algorithm>
-#include <cmath>
 
 #include "krater/core/errors.hpp"
 #include "krater/kinematics/mpm/node_loads.hpp"
@@ -23,34 +22,35 @@ std::vector<int> loads_of(const Scene& scene, int body) {
 
 namespace {
 
-double depth_of(const Scene& scene, const FaceLoad& load, const BodyOptions& body) {
-  if (body.sph) return sph_load_depth(*body.sph, load.kind);
-  return (load.kind == FaceLoad::Kind::velocity ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
+/// Share of what lies `depth` below a face of a body that is `thickness` deep there.
+double share_at(const Scene& scene, const FaceLoad& load, const BodyOptions& body, double depth,
+                double thickness) {
+  const bool drives = load.kind == FaceLoad::Kind::velocity;
+  if (body.sph && !drives) return sph_load_share(*body.sph, depth, thickness);
+  const double whole =
+      body.sph ? body.sph->spacing : (drives ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
+  return depth <= whole ? 1 : 0;
 }
 
 }  // namespace
 
-bool lies_on_face(const Scene& scene, const FaceLoad& load, const BodyOptions& body,
+double face_share(const Scene& scene, const FaceLoad& load, const BodyOptions& body,
                   const Triple& x) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(scene.frame)); ++a)
-    if (x[a] < load.region[a][0] || x[a] > load.region[a][1]) return false;
-  if (load.inside && !load.inside(x)) return false;
-  if (load.axis < 0) return true;
+    if (x[a] < load.region[a][0] || x[a] > load.region[a][1]) return 0;
+  if (load.inside && !load.inside(x)) return 0;
+  if (load.axis < 0) return 1;
   const auto a = static_cast<std::size_t>(load.axis);
-  const std::size_t side = load.side == 0 ? 0 : 1;
-  const std::array<double, 2> domain{scene.grid.min[a], scene.grid.max[a]};
   Spans spans;
   body.solid->spans(along_axis(to_space(scene.frame, x), tensor_axis(scene.frame, load.axis)),
                     spans);
-  return std::any_of(spans.begin(), spans.end(), [&](const Span& span) {
-    const std::array<double, 2> ends{std::max(span.low, domain[0]), std::min(span.high, domain[1])};
-    double depth = depth_of(scene, load, body);
-    // The sums of particles know the faces on both sides; what a mirror completes has only one.
-    const bool mirrored = ends[1 - side] == domain[1 - side] &&
-                          scene.grid.boundary[a][1 - side].kind == BoundaryKind::symmetry;
-    if (body.sph && !mirrored) depth = std::min(depth, 0.5 * (ends[1] - ends[0]));
-    return x[a] >= span.low && x[a] <= span.high && std::abs(x[a] - ends[side]) <= depth;
-  });
+  for (const Span& span : spans) {
+    if (x[a] < span.low || x[a] > span.high) continue;
+    const double low = std::max(span.low, scene.grid.min[a]),
+                 high = std::min(span.high, scene.grid.max[a]);
+    return share_at(scene, load, body, load.side == 0 ? x[a] - low : high - x[a], high - low);
+  }
+  return 0;
 }
 
 namespace {

@@ -30,7 +30,7 @@ bool SphLoads::presses(int body) const {
                      [&](std::size_t k) { return options_.faces[k].kind != Kind::velocity; });
 }
 
-/// Force of a load on a marked particle [N].
+/// Force of a load on a particle that is whole in its face [N].
 Triple SphLoads::push_of(const FaceLoad& load, const Triple& G) const {
   Triple f{};
   const auto value = [&](std::size_t a) { return load.value[a] ? load.value[a](time_) : 0; };
@@ -57,17 +57,19 @@ void SphLoads::add(SphStep::Particles& b, double dt) {
       const FaceLoad& load = options_.faces[loads[k]];
       if ((load.kind == Kind::velocity) != velocities) continue;
       for (int i = 0; i < b.points.count(); ++i)
-        if (b.points.at(b.columns.share + kLanes * static_cast<int>(k), i) > 0) act(load, i);
+        if (const double share = b.points.at(b.columns.share + kLanes * static_cast<int>(k), i);
+            share > 0)
+          act(load, i, share);
     }
   };
-  each(false, [&](const FaceLoad& load, int i) {
+  each(false, [&](const FaceLoad& load, int i, double share) {
     const Triple f = push_of(load, b.area(i));
     for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
       changes.give(static_cast<std::size_t>(i), a, b.change(i),
-                   dt * f[a] / b.points.at(b.columns.mass, i));
+                   dt * share * f[a] / b.points.at(b.columns.mass, i));
   });
   changes.push(masses(b), body_force_, options_.damping, time_, dt);
-  each(true, [&](const FaceLoad& load, int i) {
+  each(true, [&](const FaceLoad& load, int i, double) {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) {
       if (!load.value[a]) continue;
       const double v = b.points.at(b.columns.velocity + kLanes * static_cast<int>(a), i);

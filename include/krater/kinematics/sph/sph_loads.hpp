@@ -6,14 +6,16 @@
 ///   G_i = sum_j V_i V_j (S_i K_i + S_j K_j) grad W_ij,   S = 1, or (V/V0) F^-T,   sum_i G_i = 0,
 /// is minus the outward area vector of particle i, so a body under pressure is in equilibrium with
 /// its uniform stress -p to round-off, in any order of its particles, and with it a surface of any
-/// shape. With N the outward normal of the load's face, s_i = 1 where the particle was marked:
+/// shape. With N the outward normal of the load's face, s_i the particle's share in it:
 ///   pressure   f_i = p s_i G_i                all around, or on a face, f_i = p s_i (G_i . N) N
 ///   traction   f_i = -t s_i (G_i . N)
 ///   velocity   v+ = v(t) of the marked particles, before contact and sides
 /// and on the masses kinematics/load_changes.hpp. Below a free face the layers of a lattice carry
-/// 1.46, -0.42, -0.04 of its area (cubic spline, h = 1.2 dx): in the mean they lie on the face, so
-/// layers are summed with their signs. Particles are marked at the start (sph_load_depth), no
-/// deeper than half of the way to the face behind, and keep their marks.
+/// 1.46, -0.42, -0.04 of its area (cubic spline, h = 1.2 dx): they are summed with their signs.
+/// Since linear fields are exact, sum_i G_i x_i = - V: over a share that is linear between two
+/// faces the sum is the area, however few layers lie there or in what order. Shares are given at
+/// the start (sph_load_share), and kept.
+#include <algorithm>
 #include <map>
 
 #include "krater/kinematics/load_changes.hpp"
@@ -48,10 +50,13 @@ class SphLoads {
   std::map<const SphStep::Particles*, LoadChanges> changes_;
 };
 
-/// How deep below a face particles feel its load [m]: twice the support, within which sums of
-/// corrected gradients know of the face; of a prescribed velocity the first layer.
-inline double sph_load_depth(const SphOptions& options, FaceLoad::Kind kind) {
-  return kind == FaceLoad::Kind::velocity ? options.spacing : 4 * options.length();
+/// Share in the face of a load of what lies `depth` below it [m] in a body as thick as `thickness`
+/// there: all of it down to twice the support, as deep as sums of corrected gradients know of a
+/// face, and less from there on to four times. In a thinner body it is linear.
+inline double sph_load_share(const SphOptions& options, double depth, double thickness) {
+  const double whole = 8 * options.length();
+  if (thickness < whole) return std::max(0.0, 1 - depth / thickness);
+  return std::min(1.0, std::max(0.0, 2 * (1 - depth / whole)));
 }
 
 }  // namespace krater
