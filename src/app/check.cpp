@@ -167,8 +167,9 @@ void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
   else
     print_block(scene, body);
   constexpr std::array kinds{"assumed strain", "stiffness", "viscous"};
+  constexpr std::array references{"", ", on the initial reference", ", on adaptive references"};
   fmt::print("; hourglass: {}{}\n", kinds[static_cast<std::size_t>(body.mesh->hourglass.kind)],
-             body.mesh->reference == ElementReference::initial ? ", on the initial reference" : "");
+             references[static_cast<std::size_t>(body.mesh->reference)]);
   if (!body.mesh->erosion.any()) return;
   fmt::print("  elements that fail as `when` says {}\n",
              body.mesh->converts ? "become points" : "are eroded");

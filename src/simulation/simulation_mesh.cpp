@@ -77,6 +77,7 @@ void Simulation::place_meshes() {
                      .barotropic = kernel_data_[b].heat_floor == nullptr,
                      .held = body.options().mesh->hourglass,
                      .reference = body.options().mesh->reference,
+                     .refresh_strain = body.options().mesh->refresh_strain,
                      .erosion = body.options().mesh->erosion,
                      .points = {}};
     if (body.options().becomes_points())

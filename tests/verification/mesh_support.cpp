@@ -22,7 +22,8 @@ MeshFrame frame_of(Frame frame) {
 }  // namespace
 
 MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& overrides,
-                 const HourglassOptions& held, double cfl, ElementReference reference)
+                 const HourglassOptions& held, double cfl, ElementReference reference,
+                 double refresh_strain)
     : scene_{read_text(yaml, overrides)},
       layout_{mesh.dimension},
       clock_{{cfl, scene_->time.first_step, 0, scene_->time.max_step}} {
@@ -51,6 +52,7 @@ MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& ove
                    .q_quad = plan.q_quad,
                    .held = held,
                    .reference = reference,
+                   .refresh_strain = refresh_strain,
                    .erosion = {},
                    .points = {}};
   for (const Triple& x : mesh.nodes)

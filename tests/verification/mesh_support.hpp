@@ -19,7 +19,7 @@ class MeshRun {
  public:
   MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& overrides = {},
           const HourglassOptions& held = {}, double cfl = 0.9,
-          ElementReference reference = ElementReference::current);
+          ElementReference reference = ElementReference::current, double refresh_strain = 0.3);
 
   void step(double until);
   void run_to(double time);

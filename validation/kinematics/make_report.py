@@ -371,9 +371,9 @@ def spear(study):
         for name, label, more in (
                 ("projectile of elements, plate of particles", "mixed", [particles("plate", spacing),
                                                                          elements("projectile", kept, f"{spacing} mm")]),
-                ("particles", "particles", [particles(body, spacing) for body in ("plate", "projectile")]), ("points", "points", [])):
+                ("points", "points", [])):
             add(f"{name}, {n} through the plate", f"quarter_{label}_{n}", [*here, *more], seconds, ())
-    study.add("The same quarter with the paper's mixed model, a target of particles and a projectile of elements, and with particles or points "
+    study.add("The same quarter with the paper's mixed model, a target of particles and a projectile of elements, and with points "
               "alone; n particles or points, not cells, through the plate, elements of that size. Failed particles stay, without tension.")
     study.add_table(titles, rows)
 
