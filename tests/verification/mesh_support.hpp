@@ -49,4 +49,12 @@ class MeshRun {
   StepClock clock_;
 };
 
+/// Scene of an elastic body of unit density and modulus that moves at `velocity`.
+std::string text_of(const std::string& frame, const std::string& velocity,
+                    const std::string& more = "");
+/// Every node moved by up to `amplitude` along each axis.
+Mesh shaken(Mesh mesh, double amplitude, unsigned seed);
+/// Of all nodes; forces are found anew.
+void set_velocities(MeshRun& run, const std::vector<Triple>& v);
+
 }  // namespace krater::test

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "verification/mesh_support.hpp"
 
@@ -28,14 +27,6 @@ std::string text_of(const std::string& frame, const std::string& sides, const st
 
 const std::string kElastic =
     "density: 1, youngs_modulus: 1, poisson_ratio: 0.3, eos: linear, strength: elastic";
-
-Mesh shaken(Mesh mesh, double amplitude, unsigned seed) {
-  std::mt19937 random{seed};
-  std::uniform_real_distribution<double> move{-amplitude, amplitude};
-  for (Triple& x : mesh.nodes)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) x[a] += move(random);
-  return mesh;
-}
 
 struct Momenta {
   Triple momentum{};
