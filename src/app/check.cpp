@@ -129,10 +129,11 @@ const char* kernel_name(SphKernel kernel) {
 }
 
 void print_sph(const SphOptions& sph) {
+  constexpr std::array references{"current", "initial", "adaptive"};
   fmt::print("  sph: spacing {:.4g} m, smoothing length {:.4g} m, {}, {} gradients, reference {}\n",
              sph.spacing, sph.length(), kernel_name(sph.kernel),
              sph.correction == SphCorrection::linear ? "corrected" : "uncorrected",
-             sph.reference == SphReference::current ? "current" : "initial");
+             references[static_cast<std::size_t>(sph.reference)]);
 }
 
 void print_block(const Scene& scene, const BodyOptions& body) {

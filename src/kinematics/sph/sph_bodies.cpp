@@ -63,7 +63,9 @@ void make_room(int dim, SphStep::Particles& body) {
   body.remembered.reserve(2 * groups * kLanes);
   body.changes.reserve(kSphChange * groups * kLanes + kLanes);  // read eight at a time
   body.reference.reserve(3 * groups * kLanes);
+  body.reference_density.reserve(groups * kLanes);
   body.deformation.reserve(body.fixed() ? 9 * groups * kLanes : 0);
+  std::fill_n(body.reference_density.data(), groups * kLanes, body.made_of.density);
   for (std::size_t g = 0; g < groups; ++g) {
     std::fill_n(body.remembered.data() + 2 * g * kLanes, kLanes, body.made_of.shear_modulus);
     for (std::size_t k = 0; k < 9 && body.fixed(); k += 4)
@@ -74,6 +76,9 @@ void make_room(int dim, SphStep::Particles& body) {
             .data()[(3 * g + static_cast<std::size_t>(a)) * kLanes + static_cast<std::size_t>(l)] =
             body.points.at(body.columns.position + kLanes * a, kLanes * static_cast<int>(g) + l);
   }
+  if (!body.adaptive()) return;
+  body.first.reserve(3 * groups * kLanes);
+  std::copy_n(body.reference.data(), 3 * groups * kLanes, body.first.data());
 }
 
 }  // namespace

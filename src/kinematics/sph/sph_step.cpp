@@ -22,13 +22,13 @@ SphData SphStep::data(Particles& b) const {
           .held = b.held.data(),
           .remembered = b.remembered.data(),
           .reference = b.reference.data(),
+          .reference_density = b.reference_density.data(),
           .deformation = b.deformation.data(),
           .changes = b.changes.data(),
           .columns = b.columns,
           .stages = b.made_of.stages,
           .stage_count = b.made_of.stage_count,
           .h = b.made_of.options.length(),
-          .density = b.made_of.density,
           .q_lin = b.made_of.q_lin,
           .q_quad = b.made_of.q_quad,
           .zero_energy = b.made_of.options.zero_energy,
@@ -146,6 +146,29 @@ void SphStep::find_forces() {
   for (std::size_t c = 0; c < chunks_.size(); ++c)
     bodies_[chunks_[c].body]->flat += static_cast<std::size_t>(results[c].flat);
   find_areas();
+}
+
+/// X <- x, rho_0 <- rho, F <- 1 of bodies that are strained too far somewhere: columns are not
+/// touched.
+void SphStep::renew_references(const std::vector<SphResult>& results) {
+  for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    Particles& b = *bodies_[s];
+    double stretch = 0;
+    for (std::size_t c = 0; c < results.size(); ++c)
+      if (chunks_[c].body == s) stretch = std::max(stretch, results[c].stretch);
+    if (!b.adaptive() || !(stretch > 2 * b.made_of.options.refresh_strain)) continue;
+    for (int i = 0; i < kLanes * b.points.groups(); ++i) {
+      for (int a = 0; a < dim_; ++a)
+        b.reference.data()[(3 * (i / kLanes) + a) * kLanes + i % kLanes] =
+            b.points.at(b.columns.position + kLanes * a, i);
+      b.reference_density.data()[i] = b.points.at(b.columns.density, i);
+      for (int k = 0; k < 9; ++k)
+        b.deformation.data()[(9 * (i / kLanes) + k) * kLanes + i % kLanes] = k % 4 == 0 ? 1 : 0;
+    }
+    b.kernels->place(data(b), false, 0, b.points.groups());
+    b.neighbours.make(b.motion.data(), b.points.count());
+    audit_.new_references += 1;
+  }
 }
 
 /// Of the bodies that are pressed, by the sweep that sums forces; nothing else reads their records
@@ -275,6 +298,7 @@ Standing SphStep::move(double dt, const Standing& others) {
   });
   find_limit(results);  // or the fault
   book(results, others);
+  renew_references(results);
   find_forces();
   audit_.contact_pairs = others.contact_pairs;
   return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};
@@ -285,17 +309,25 @@ std::vector<double> SphStep::state(int s) const {
   const std::size_t lanes = b.group_count() * kLanes;
   std::vector<double> out = b.neighbours.places();
   out.insert(out.end(), b.remembered.data(), b.remembered.data() + 2 * lanes);
-  if (b.fixed()) out.insert(out.end(), b.deformation.data(), b.deformation.data() + 9 * lanes);
+  if (!b.fixed()) return out;
+  out.insert(out.end(), b.deformation.data(), b.deformation.data() + 9 * lanes);
+  out.insert(out.end(), b.reference_density.data(), b.reference_density.data() + lanes);
   return out;
 }
 
 bool SphStep::set_state(int s, const std::vector<double>& state) {
   Particles& b = *bodies_[static_cast<std::size_t>(s)];
   const std::size_t lanes = b.group_count() * kLanes, places = b.neighbours.places().size();
-  if (state.size() != places + (b.fixed() ? 11 : 2) * lanes) return false;
+  if (state.size() != places + (b.fixed() ? 12 : 2) * lanes) return false;
   b.neighbours.make_from(state.data(), b.points.count());
   std::copy_n(state.data() + places, 2 * lanes, b.remembered.data());
-  if (b.fixed()) std::copy_n(state.data() + places + 2 * lanes, 9 * lanes, b.deformation.data());
+  if (!b.fixed()) return true;
+  std::copy_n(state.data() + places + 2 * lanes, 9 * lanes, b.deformation.data());
+  std::copy_n(state.data() + places + 11 * lanes, lanes, b.reference_density.data());
+  for (int i = 0; i < b.points.count(); ++i)
+    for (int a = 0; a < dim_; ++a)
+      b.reference.data()[(3 * (i / kLanes) + a) * kLanes + i % kLanes] =
+          state[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(a)];
   return true;
 }
 

@@ -48,9 +48,7 @@ Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& r
   out.correction = block.choice<SphCorrection>(
       "correction", {{"linear", SphCorrection::linear}, {"none", SphCorrection::none}},
       out.correction);
-  out.reference = block.choice<SphReference>(
-      "reference", {{"current", SphReference::current}, {"initial", SphReference::initial}},
-      out.reference);
+  out.reference = static_cast<SphReference>(read_reference(block, out.refresh_strain, reading));
   return block.finish();
 }
 

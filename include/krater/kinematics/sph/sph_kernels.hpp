@@ -11,7 +11,7 @@
 /// and what a group has beside its columns in arrays of `groups` records:
 ///   correction [6][8]   power [8]   force [3][8]   remembered [2][8]: G and tr D of the last step
 ///   held [4][8]: of the forces, what holds zero-energy modes, and what it takes from motion [W]
-///   reference [3][8]: places at the start      deformation [9][8]: F from there
+///   reference [3][8], reference_density [8]: places and densities there   deformation [9][8]: F
 #include <cstdint>
 
 #include "krater/core/batch_types.hpp"
@@ -51,13 +51,13 @@ struct SphData {
   int count, groups;
   const NeighbourRows* neighbours;
   double *motion, *load;
-  double *correction, *power, *force, *held, *remembered, *reference, *deformation;
+  double *correction, *power, *force, *held, *remembered, *reference, *reference_density,
+      *deformation;
   const double* changes;  ///< of velocity in the step and heat per mass, 4 for each particle
   SphColumns columns;
   const Stage* const* stages;
   int stage_count;
-  double h;        ///< [m]
-  double density;  ///< at the start
+  double h;  ///< [m]
   double q_lin, q_quad, zero_energy;
   double artificial_stress;
   double spacing;  ///< at the start [m]
@@ -77,6 +77,7 @@ struct SphResult {
   double internal = 0;             ///< [J]
   double max_rate = 0;             ///< 1/dt at CFL 1 [1/s]
   int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the particle
+  double stretch = 0;              ///< greatest component of |F^T F - 1|
   int flat = 0;                    ///< particles whose correction is not the full one
   Ledger ledger;
   Fault fault;

@@ -113,6 +113,7 @@ class SphStep final : public Kinematics {
   template <class Work>
   void over_groups(const Work& work);
   void renew_lists();
+  void renew_references(const std::vector<SphResult>& results);
   void find_areas();
   void book_loads();
   void push_from_sides(Particles& body, int first, int last, double dt, SideSums& sums) const;
