@@ -131,10 +131,11 @@ const char* kernel_name(SphKernel kernel) {
 }
 
 void print_sph(const SphOptions& sph) {
+  constexpr std::array references{"current", "initial", "adaptive"};
   fmt::print("  sph: spacing {:.4g} m, smoothing length {:.4g} m, {}, {} gradients, reference {}\n",
              sph.spacing, sph.length(), kernel_name(sph.kernel),
              sph.correction == SphCorrection::linear ? "corrected" : "uncorrected",
-             sph.reference == SphReference::current ? "current" : "initial");
+             references[static_cast<std::size_t>(sph.reference)]);
 }
 
 void print_block(const Scene& scene, const BodyOptions& body) {
@@ -169,8 +170,9 @@ void print_mesh(const Scene& scene, const BodyOptions& body, double volume) {
   else
     print_block(scene, body);
   constexpr std::array kinds{"assumed strain", "stiffness", "viscous"};
+  constexpr std::array references{"", ", on the initial reference", ", on adaptive references"};
   fmt::print("; hourglass: {}{}\n", kinds[static_cast<std::size_t>(body.mesh->hourglass.kind)],
-             body.mesh->reference == ElementReference::initial ? ", on the initial reference" : "");
+             references[static_cast<std::size_t>(body.mesh->reference)]);
   if (!body.mesh->erosion.any()) return;
   fmt::print("  elements that fail as `when` says {}\n",
              body.mesh->converts ? "become points" : "are eroded");

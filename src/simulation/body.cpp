@@ -90,7 +90,7 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     if (options_->mesh)
       declare_elements(material_->density, layout_);
     else
-      declare_particles(material_->density, layout_);
+      declare_particles(material_->density, !loads_of(scene, index).empty(), layout_);
     if (wants(scene, field::DeformationGradient::info) || strained(scene, index))
       layout_.state<field::DeformationGradient>(0, "output");
   } else {

@@ -4,6 +4,7 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/kinematics/mpm/node_loads.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
 #include "krater/points/load_fields.hpp"
 #include "krater/simulation/face_loads.hpp"
 
@@ -19,23 +20,37 @@ std::vector<int> loads_of(const Scene& scene, int body) {
   return out;
 }
 
-bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, const Triple& x) {
+namespace {
+
+/// Share of what lies `depth` below a face of a body that is `thickness` deep there.
+double share_at(const Scene& scene, const FaceLoad& load, const BodyOptions& body, double depth,
+                double thickness) {
+  const bool drives = load.kind == FaceLoad::Kind::velocity;
+  if (body.sph && !drives) return sph_load_share(*body.sph, depth, thickness);
+  const double whole =
+      body.sph ? body.sph->spacing : (drives ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
+  return depth <= whole ? 1 : 0;
+}
+
+}  // namespace
+
+double face_share(const Scene& scene, const FaceLoad& load, const BodyOptions& body,
+                  const Triple& x) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension(scene.frame)); ++a)
-    if (x[a] < load.region[a][0] || x[a] > load.region[a][1]) return false;
-  if (load.inside && !load.inside(x)) return false;
-  if (load.axis < 0) return true;
-  const double depth =
-      (load.kind == FaceLoad::Kind::velocity ? kDrivenDepth : kLoadedDepth) * scene.grid.cell;
+    if (x[a] < load.region[a][0] || x[a] > load.region[a][1]) return 0;
+  if (load.inside && !load.inside(x)) return 0;
+  if (load.axis < 0) return 1;
   const auto a = static_cast<std::size_t>(load.axis);
-  const double end = load.side == 0 ? scene.grid.min[a] : scene.grid.max[a];
   Spans spans;
-  solid.spans(along_axis(to_space(scene.frame, x), tensor_axis(scene.frame, load.axis)), spans);
-  const auto distance = [&](const Span& span) {
-    return load.side == 0 ? x[a] - std::max(span.low, end) : std::min(span.high, end) - x[a];
-  };
-  return std::any_of(spans.begin(), spans.end(), [&](const Span& span) {
-    return x[a] >= span.low && x[a] <= span.high && distance(span) <= depth;
-  });
+  body.solid->spans(along_axis(to_space(scene.frame, x), tensor_axis(scene.frame, load.axis)),
+                    spans);
+  for (const Span& span : spans) {
+    if (x[a] < span.low || x[a] > span.high) continue;
+    const double low = std::max(span.low, scene.grid.min[a]),
+                 high = std::min(span.high, scene.grid.max[a]);
+    return share_at(scene, load, body, load.side == 0 ? x[a] - low : high - x[a], high - low);
+  }
+  return 0;
 }
 
 namespace {

@@ -82,9 +82,9 @@ std::vector<double>& PointMaker::make(const SeedPoint& seed, std::size_t id) {
   place(seed, velocity);
   if (options_.velocity && slots_.affine >= 0) spin(seed);
   for (std::size_t k = 0; k < loads_.size(); ++k)
-    if (lies_on_face(scene_, scene_.loads.faces[static_cast<std::size_t>(loads_[k])],
-                     *options_.solid, seed.x))
-      set(slots_.load_share, static_cast<int>(k), 1.0);
+    set(slots_.load_share, static_cast<int>(k),
+        face_share(scene_, scene_.loads.faces[static_cast<std::size_t>(loads_[k])], options_,
+                   seed.x));
   for (int k = 0; k < 9; k += 4) set(slots_.deformation, k, 1.0);
   return record_;
 }

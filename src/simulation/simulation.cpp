@@ -123,8 +123,8 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
                                    kernel_shape(scene.method.shape)});
   place_rigid_bodies();
   place_meshes();
-  require_faces(*this);
   place_particles();
+  require_faces(*this);
   let_bodies_meet();
   find_movers();
   choose_first_step();
@@ -268,7 +268,8 @@ void Simulation::step(double until) {
   if (boundary_.set_time(time())) step_->relink();
   loads_->set_time(time());
   if (mesh_) mesh_->set_time(time());
-  const Triple body_force = scene_.body_force ? apply_body_force() : Triple{};
+  if (sph_) sph_->set_time(time());
+  const Triple on_points = scene_.body_force ? apply_body_force() : Triple{};
   const std::array<double, 3> wall_force = apply_point_walls(asked);
   double taken = 0;
   try {
@@ -291,7 +292,7 @@ void Simulation::step(double until) {
     step_->deliver_leavers();
     throw NumericalError(fmt::format("{}; time {:.6e} s, step {}", e.what(), time(), steps()));
   }
-  audit_.book_body_force(body_force, taken);
+  audit_.book_body_force(on_points, taken);
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
@@ -341,11 +342,15 @@ std::array<double, 3> Simulation::apply_point_walls(double dt) {
   return push_from_walls(grid_, kernel_data_, boundary_, spacing, dt);
 }
 
+Acceleration Simulation::body_force() const {
+  if (!scene_.body_force) return {};
+  return
+      [this](const Triple& x, const Triple& X, double t) { return (*scene_.body_force)(x, X, t); };
+}
+
 Triple Simulation::apply_body_force() {
   Triple force{};
-  const Acceleration load = [this](const Triple& x, const Triple& X, double t) {
-    return (*scene_.body_force)(x, X, t);
-  };
+  const Acceleration load = body_force();
   for (RigidBody& body : rigid_.all())
     load_rigid(body, grid_, kernel_data_[static_cast<std::size_t>(body.options().body)].columns,
                load, time());

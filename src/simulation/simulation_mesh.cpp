@@ -61,12 +61,7 @@ void Simulation::place_meshes() {
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       mesh_ = std::make_unique<MeshStep>(domain, *mesh_kernels_, audit_);
       mesh_->set_impulses(impulses_, scene_.contact.active);
-      BodyForce force;
-      if (scene_.body_force)
-        force = [this](const Triple& x, const Triple& X, double t) {
-          return (*scene_.body_force)(x, X, t);
-        };
-      mesh_->set_loads(std::make_unique<MeshLoads>(scene_.loads, force, scene_.frame));
+      mesh_->set_loads(std::make_unique<MeshLoads>(scene_.loads, body_force(), scene_.frame));
     }
     const MaterialPlan plan = material_plan(body.material());
     ElementBody made{.body = static_cast<int>(b),
@@ -82,6 +77,7 @@ void Simulation::place_meshes() {
                      .barotropic = kernel_data_[b].heat_floor == nullptr,
                      .held = body.options().mesh->hourglass,
                      .reference = body.options().mesh->reference,
+                     .refresh_strain = body.options().mesh->refresh_strain,
                      .erosion = body.options().mesh->erosion,
                      .points = {}};
     if (body.options().becomes_points())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies of smoothed particles in a simulation.
 #include "krater/core/errors.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
 #include "krater/simulation/material_plan.hpp"
 #include "krater/simulation/point_maker.hpp"
 #include "krater/simulation/simulation.hpp"
@@ -16,6 +17,8 @@ void Simulation::place_particles() {
       for (std::size_t a = 0; a < 3; ++a)
         domain.planes[a] = {scene_.grid.min[a], scene_.grid.max[a]};
       sph_ = std::make_unique<SphStep>(domain, level_, audit_);
+      sph_->set_loads(
+          std::make_unique<SphLoads>(scene_.loads, body_force(), dimension(scene_.frame)));
     }
     const MaterialPlan plan = material_plan(body.material());
     SphBody made{.body = static_cast<int>(b),

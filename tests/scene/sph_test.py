@@ -26,12 +26,15 @@ REFUSED = {
     "a smoothing that sees no neighbour": (["bodies.rod.kinematics={sph: {smoothing: 0.5}}"],
                                            "smoothing must be from 1"),
     "an unknown weight": (["bodies.rod.kinematics={sph: {kernel: gaussian}}"], "wendland_c2"),
+    "a strain for a reference that has none": (["bodies.rod.kinematics={sph: {reference: {initial: {strain: 0.1}}}}"],
+                                               "adaptive"),
+    "a negative strain": (["bodies.rod.kinematics={sph: {reference: {adaptive: {strain: -0.1}}}}"], "strain"),
     "an unknown key": (["bodies.rod.kinematics={sph: {hourglass: viscous}}"], "hourglass"),
     "points of another lattice": (["bodies.rod.points={per_direction: 3}"], "lattice of its own spacing"),
     "a rigid body": (["bodies.rod.rigid=free"], "cannot be rigid"),
     "the method's reference": (["method.reference=initial"], "sph: {reference: initial}"),
-    "a load": (["damping={mass: 1e3 1/s}"], "neither body_force, damping nor loads"),
-    "a side that drives": (["grid.boundary.z_max={velocity: [0, 0, -1 m/s]}"], "no side that drives"),
+    "a load on no particle": (["loads={push: {body: rod, face: z_max, pressure: 1 GPa, where: {x_min: 9 mm}}}"],
+                              "nothing to act on"),
     "another body without contact":
         (["bodies.ball={material: copper, shape: {sphere: {radius: 2 mm, center: [8 mm, 8 mm, 8 mm]}}}"],
          "add a block contact"),
@@ -46,7 +49,7 @@ def answers(scene):
     check("method.transfer says how points and grid exchange" in checked.text, "check doubts keys of the other method")
     done = run("mpm", "bodies.rod.kinematics=mpm", scene=scene)
     points = summary("mpm")["measures"]["length"]["value"] if done.returncode == 0 else 0
-    for reference in ("current", "initial"):
+    for reference in ("current", "initial", "adaptive"):
         done = run("rod", f"bodies.rod.kinematics.sph.reference={reference}", scene=scene)
         if not check(done.returncode == 0, f"the rod runs, {reference}", done.text[-300:]):
             continue
@@ -95,7 +98,7 @@ def main():
         same_bits(rod)
         for what, (values, word) in REFUSED.items():
             done = run("refused", *values, scene=rod)
-            named = "rod.yaml:" in done.text or "--set bodies" in done.text
+            named = "rod.yaml:" in done.text or "--set bodies" in done.text or "--set loads" in done.text
             check(done.returncode == 2 and word in done.text and named, f"refused: {what}", done.text[-300:])
         rod.write_text(ROD.replace("frame: 3d", "frame: axisymmetric").replace("[0, 0, 0]", "[0, 0]")
                        .replace("12.192 mm, 12.192 mm,", "12.192 mm,").replace(", x_min: symmetry, y_min: symmetry", "")

@@ -88,9 +88,9 @@ TEST_SUITE("verification") {
                                                       : 16e-6;
         const double impulse = 10e6 * area * 5e-6;
         const Audit& audit = run.sim->audit();
-        CHECK(run.sim->totals().momentum[z] == doctest::Approx(impulse).epsilon(1e-3));
+        CHECK(run.sim->totals().momentum[z] == doctest::Approx(impulse).epsilon(1e-3).scale(0));
         CHECK(audit.load_impulse[z] ==
-              doctest::Approx(run.sim->totals().momentum[z]).epsilon(1e-12));
+              doctest::Approx(run.sim->totals().momentum[z]).epsilon(1e-12).scale(0));
         CHECK(audit.load_work > 0);
         CHECK(audit.external_work == audit.load_work);
       }
@@ -139,10 +139,11 @@ TEST_SUITE("verification") {
         }
       // Crank and Nicolson over steps of 1e-7 s: (eta dt)^2/12 of the exponent.
       CHECK(damped.sim->totals().momentum[z] / mass ==
-            doctest::Approx(5 * std::exp(-0.6)).epsilon(1e-5));
+            doctest::Approx(5 * std::exp(-0.6)).epsilon(1e-5).scale(0));
       CHECK(damped.sim->audit().damping_work < 0);
       CHECK(falling.sim->totals().momentum[z] / mass == doctest::Approx(3).epsilon(1e-10));
-      CHECK(falling.sim->audit().external_impulse[z] == doctest::Approx(-2 * mass).epsilon(1e-10));
+      CHECK(falling.sim->audit().external_impulse[z] ==
+            doctest::Approx(-2 * mass).epsilon(1e-10).scale(0));
     }
   }
 
@@ -151,7 +152,7 @@ TEST_SUITE("verification") {
                          "body_force: [0, \"-1e5\"]\n" + body("plane_strain"));
     while (!run.sim->done()) run.sim->step(run.sim->scene().time.end);
     const Totals now = run.sim->totals();
-    CHECK(now.momentum[1] / now.mass == doctest::Approx(-0.25).epsilon(1e-9));  // exp(-24)
+    CHECK(now.momentum[1] / now.mass == doctest::Approx(-0.25).epsilon(1e-9).scale(0));  // exp(-24)
   }
 
   TEST_CASE("mesh loads: the same bits on any threads and across a restart") {
@@ -193,10 +194,11 @@ TEST_SUITE("verification") {
       }
       CHECK(run.sim->audit().wall_work > 0);
       CHECK(run.sim->totals().momentum[z] ==
-            doctest::Approx(run.sim->audit().wall_impulse[z]).epsilon(1e-12));
+            doctest::Approx(run.sim->audit().wall_impulse[z]).epsilon(1e-12).scale(0));
       for (std::size_t n = 0; n < run.sim->mesh()->node_count(0); ++n)
         if (run.sim->mesh()->mesh(0).nodes[n][z] == 0) {
-          CHECK(run.sim->mesh()->position(0, n)[z] == doctest::Approx(40e-6).epsilon(2e-2));
+          CHECK(run.sim->mesh()->position(0, n)[z] ==
+                doctest::Approx(40e-6).epsilon(2e-2).scale(0));
           CHECK(run.sim->mesh()->velocity(0, n)[z] >= 10 * (1 - 1e-9));
         }
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verification/mesh_support.hpp"
 
+#include <random>
+#include <stdexcept>
+
 #include "krater/kinematics/mpm/kernel_levels.hpp"
 #include "krater/simulation/material_plan.hpp"
 
@@ -22,7 +25,8 @@ MeshFrame frame_of(Frame frame) {
 }  // namespace
 
 MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& overrides,
-                 const HourglassOptions& held, double cfl, ElementReference reference)
+                 const HourglassOptions& held, double cfl, ElementReference reference,
+                 double refresh_strain)
     : scene_{read_text(yaml, overrides)},
       layout_{mesh.dimension},
       clock_{{cfl, scene_->time.first_step, 0, scene_->time.max_step}} {
@@ -51,6 +55,7 @@ MeshRun::MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& ove
                    .q_quad = plan.q_quad,
                    .held = held,
                    .reference = reference,
+                   .refresh_strain = refresh_strain,
                    .erosion = {},
                    .points = {}};
   for (const Triple& x : mesh.nodes)
@@ -86,6 +91,36 @@ void MeshRun::set_column(const FieldInfo& field, int component, const std::vecto
   for (int i = 0; i < store.count(); ++i)
     store.at(c->offset + kLanes * component, i) = values[static_cast<std::size_t>(i)];
   step_->find_forces();
+}
+
+std::string text_of(const std::string& frame, const std::string& velocity,
+                    const std::string& more) {
+  const bool space = frame == "3d";
+  const std::string low = frame == "axisymmetric" ? "0, -9" : space ? "-9, -9, -9" : "-9, -9";
+  const std::string shape = frame == "axisymmetric" ? "cylinder: {radius: 1, height: 1}"
+                                                    : "box: {min: [0, 0, 0], max: [1, 1, 1]}";
+  return "frame: " + frame + "\ngrid: {cell: 0.25, box: {min: [" + low + "], max: [" +
+         (space ? "9, 9, 9" : "9, 9") +
+         "]}}\ntime: {end: 1}\nmaterials: {matter: {density: 1, youngs_modulus: 1, poisson_ratio: "
+         "0.3, eos: linear, strength: elastic" +
+         more + "}}\nbodies: {block: {material: matter, shape: {" + shape +
+         "}, velocity: " + velocity + "}}\n";
+}
+
+Mesh shaken(Mesh mesh, double amplitude, unsigned seed) {
+  std::mt19937 random{seed};
+  std::uniform_real_distribution<double> move{-amplitude, amplitude};
+  for (Triple& x : mesh.nodes)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(mesh.dimension); ++a) x[a] += move(random);
+  return mesh;
+}
+
+void set_velocities(MeshRun& run, const std::vector<Triple>& v) {
+  std::vector<double> state = run.mesh().state(0);
+  for (std::size_t n = 0; n < v.size(); ++n)
+    for (std::size_t a = 0; a < 3; ++a) state[8 * n + 4 + a] = v[n][a];
+  if (!run.mesh().set_state(0, state)) throw std::logic_error("another mesh");
+  run.mesh().find_forces();
 }
 
 }  // namespace krater::test

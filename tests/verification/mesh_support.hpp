@@ -19,7 +19,7 @@ class MeshRun {
  public:
   MeshRun(const std::string& yaml, const Mesh& mesh, const Overrides& overrides = {},
           const HourglassOptions& held = {}, double cfl = 0.9,
-          ElementReference reference = ElementReference::current);
+          ElementReference reference = ElementReference::current, double refresh_strain = 0.3);
 
   void step(double until);
   void run_to(double time);
@@ -48,5 +48,13 @@ class MeshRun {
   std::unique_ptr<MeshStep> step_;
   StepClock clock_;
 };
+
+/// Scene of an elastic body of unit density and modulus that moves at `velocity`.
+std::string text_of(const std::string& frame, const std::string& velocity,
+                    const std::string& more = "");
+/// Every node moved by up to `amplitude` along each axis.
+Mesh shaken(Mesh mesh, double amplitude, unsigned seed);
+/// Of all nodes; forces are found anew.
+void set_velocities(MeshRun& run, const std::vector<Triple>& v);
 
 }  // namespace krater::test

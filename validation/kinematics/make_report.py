@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The same problems with points, with elements, and with both: bars, Taylor, plugging, Spear's plate.
+"""The same problems with points, elements, particles, and mixed: bars, Taylor, plugging, Spear's plate.
 
 Writes README.md and pictures into its folder. `tools/validate kinematics` builds first.
 """
@@ -18,10 +18,14 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from validate_impacts import Scale, discussion, histories, shapes, value  # noqa: E402
 from validate_runs import Study  # noqa: E402
 
-ESTIMATED_SECONDS = 700  # on two quiet cores
+ESTIMATED_SECONDS = 1700  # on two quiet cores
 
 COSTS = ["points, elements at the end", "steps", "unphysical energy %", "hourglass share %", "wall time s (1 thread)"]
 TAYLOR = {10: ("0.381 mm", 1), 20: ("0.1905 mm", 6), 40: ("0.09525 mm", 45)}
+# Quarters in 3d, by the spacing of particles and points [mm]; cells are two of them.
+TAYLOR_QUARTER = {5: (0.762, 2), 10: (0.381, 20), 20: (0.1905, 320)}
+PLUGGING_QUARTER = {5: (1.6, 10), 10: (0.8, 180)}
+SPEAR_QUARTER = {6: (2.03, 20), 12: (1.015, 300)}
 PLUGGING = {10: ("0.8 mm", 5), 20: ("0.4 mm", 30)}
 SPEAR = {6: ("2.1167 mm", 1), 12: ("1.0583 mm", 4), 24: ("0.52917 mm", 25)}
 ROUND = ["frame=axisymmetric", "grid.box={min: [0, -60 mm], max: [125 mm, 40 mm]}",
@@ -43,11 +47,7 @@ measures: {{target_velocity: {{kind: mean_velocity, body: target, axis: z}}}}
 """
 
 
-WALL = """title: Bar on a wall, 1000 m/s (half of CCF 4.1)
-frame: 3d
-grid: {{cell: 0.5 mm, box: {{min: [-20 mm, -20 mm, 0], max: [20 mm, 20 mm, 60 mm]}}, boundary: {{z_min: {{wall: {{friction: 0}}}}}}}}
-time: {{end: {end} us, energy_error: off}}
-materials:
+METAL = """materials:
   metal:
     density: 7750
     youngs_modulus: 310 GPa
@@ -56,42 +56,23 @@ materials:
     strength: {{von_mises: {{Y: 0.85 GPa, H: 0.55 GPa}}}}
     viscosity: {{q_lin: 0.3, q_quad: 2.0}}
     rate: {rate}
-bodies:
-  bar:
-    material: metal
-    shape: {{box: {{min: [-1.25 mm, -1.25 mm, 0], max: [1.25 mm, 1.25 mm, 50 mm]}}}}
-    velocity: [0, 0, -1000 m/s]
-    kinematics: {{lagrangian_mesh: {{element: {size} mm, hourglass: {held}, reference: {reference}}}}}
-output: {{frames: 5 us, history: 0.5 us}}
 """
-
-
-PAIR = """title: Two bars of elements, 2000 m/s (CCF 4.1)
+BAR = """  {name}:
+    material: metal
+    shape: {{{{box: {{{{min: [-1.25 mm, -1.25 mm, {low} mm], max: [1.25 mm, 1.25 mm, {high} mm]}}}}}}}}
+    velocity: [0, 0, {speed} m/s]
+    kinematics: {{{{lagrangian_mesh: {{{{element: {{size}} mm, hourglass: {{held}}, reference: {{reference}}}}}}}}}}
+"""
+BLOCK = """title: {title} (CCF 4.1)
 frame: 3d
-grid: {{cell: 0.5 mm, box: {{min: [-20 mm, -20 mm, -60 mm], max: [20 mm, 20 mm, 80 mm]}}}}
-time: {{end: {end} us, energy_error: off}}
-contact: {{friction: 0}}
-materials:
-  metal:
-    density: 7750
-    youngs_modulus: 310 GPa
-    poisson_ratio: 0.3
-    eos: linear
-    strength: {{von_mises: {{Y: 0.85 GPa, H: 0.55 GPa}}}}
-    viscosity: {{q_lin: 0.3, q_quad: 2.0}}
-    rate: {rate}
-bodies:
-  target:
-    material: metal
-    shape: {{box: {{min: [-1.25 mm, -1.25 mm, 0], max: [1.25 mm, 1.25 mm, 50 mm]}}}}
-    kinematics: {{lagrangian_mesh: {{element: 0.5 mm, hourglass: {held}, reference: {reference}}}}}
-  bar:
-    material: metal
-    shape: {{box: {{min: [-1.25 mm, -1.25 mm, -50 mm], max: [1.25 mm, 1.25 mm, 0]}}}}
-    velocity: [0, 0, 2000 m/s]
-    kinematics: {{lagrangian_mesh: {{element: 0.5 mm, hourglass: {held}, reference: {reference}}}}}
-output: {{frames: 5 us, history: 0.5 us}}
+grid: {{{{cell: 0.5 mm, box: {{{{min: [-20 mm, -20 mm, {low} mm], max: [20 mm, 20 mm, {high} mm]}}}}{sides}}}}}
+time: {{{{end: {{end}} us, energy_error: off}}}}
+output: {{{{frames: 5 us, history: 0.5 us}}}}
 """
+WALL = (BLOCK.format(title="Bar on a wall, 1000 m/s, half", low=0, high=60, sides=", boundary: {{z_min: {{wall: {{friction: 0}}}}}}") + METAL
+        + "bodies:\n" + BAR.format(name="bar", low=0, high=50, speed=-1000))
+PAIR = (BLOCK.format(title="Two bars of elements, 2000 m/s", low=-60, high=80, sides="") + "contact: {{friction: 0}}\n" + METAL
+        + "bodies:\n" + BAR.format(name="target", low=0, high=50, speed=0) + BAR.format(name="bar", low=-50, high=0, speed=2000))
 GAUGES = ("gauges={edge: {body: plate, at: [8.35 mm, 0], fields: [plastic_strain], every: 0.1 us}, "
           "front: {body: projectile, at: [0, 0], fields: [velocity_z, strain_zz], every: 0.1 us}, "
           "rear: {body: projectile, at: [0, 24.7 mm], fields: [strain_zz], every: 0.1 us}}")
@@ -142,7 +123,7 @@ def pairs(study):
     cases += [("truesdell", held, "initial", 10) for held in ("assumed_strain", "viscous")]
     for rate, held, reference, end in cases:
         run = study.run_text(f"pair_{rate}_{held}_{reference}_{end}",
-                             PAIR.format(rate=rate, held=held, reference=reference, end=end), 20 * end / 5)
+                             PAIR.format(rate=rate, held=held, reference=reference, size=0.5, end=end), 20 * end / 5)
         name = f"{rate}, {held}, {reference}, to {end} µs"
         if run is None:
             rows.append([name] + ["-"] * 8)
@@ -161,6 +142,10 @@ def elements(body, erode="", size="", reference="current", action="erode"):
     parts = [f"reference: {reference}", *([f"element: {size}"] if size else []),
              *([f"failure: {{action: {action}, when: {{{erode}}}}}"] if erode else [])]
     return f"bodies.{body}.kinematics={{lagrangian_mesh: {{{', '.join(parts)}}}}}"
+
+
+def particles(body, spacing):
+    return f"bodies.{body}.kinematics={{sph: {{spacing: {spacing} mm}}}}"
 
 
 def costs(run):
@@ -261,6 +246,17 @@ def taylor(study):
     study.add("## Taylor impact, copper at 190 m/s",
               "[inputs/taylor_copper.yaml](../../inputs/taylor_copper.yaml), axisymmetric, frictionless anvil, one thread.")
     study.add_table(["run", "length mm", "W mm", "foot mm", "lowest plane mm", *COSTS], rows)
+    rows.clear()
+    study.use("inputs/taylor_copper_sph.yaml")
+    for n, (spacing, seconds) in TAYLOR_QUARTER.items():
+        cell = [f"grid.cell={2 * spacing} mm", "measures.foot_contact_diameter={kind: diameter, body: rod, at: {from_lower_end: 0}}"]
+        for name, more in (("particles", [particles("rod", spacing)]), ("points", ["bodies.rod.kinematics=mpm"])):
+            run = study.run(f"taylor_quarter_{name}_{n}", [*cell, *more], seconds)
+            rows.append([f"{name}, {n} on the radius", value(run, "final_length", 1e3, 3), value(run, "w_diameter", 1e3, 3),
+                         value(run, "foot_diameter", 1e3, 3), value(run, "foot_contact_diameter", 1e3, 3), *costs(run)])
+    study.add("A quarter in 3d ([inputs/taylor_copper_sph.yaml](../../inputs/taylor_copper_sph.yaml)), for particles know no axial symmetry; "
+              "points two to the cell, so that n points, not n cells, lie on the radius.")
+    study.add_table(["run", "length mm", "W mm", "foot mm", "lowest plane mm", *COSTS], rows)
     shapes(study, finest, (20e-6, 80e-6), "taylor.png", lambda run: Scale(run, "plastic_strain", 2.0), [-8, 8, 0, 26],
            "Plastic strain, 40 on the radius")
     study.add("![taylor](taylor.png)")
@@ -280,6 +276,22 @@ def plugging(study):
     study.add("## Plugging of a Weldox plate, 298 m/s",
               "[inputs/ccf_plugging.yaml](../../inputs/ccf_plugging.yaml): experiment 241.4 m/s; with points 236 and 238 m/s at 40 and 80 cells "
               "(../ccf_plugging). Elements erode when they fail, or when a corner has collapsed.")
+    study.add_table(["run", "residual velocity m/s", "hole mm", "failed mass g", "eroded", *COSTS], rows)
+    rows.clear()
+    quarter = ["frame=3d", "grid.box={min: [0, 0, -40 mm], max: [105.6 mm, 105.6 mm, 88 mm]}",
+               "grid.boundary={x_min: symmetry, y_min: symmetry}", "bodies.projectile.velocity=[0, 0, -298 m/s]",
+               "bodies.plate.shape={cylinder: {radius: 100 mm, height: 8 mm, base: [0, 0, -8 mm]}}", "time.end=60 us"]
+    for n, (spacing, seconds) in PLUGGING_QUARTER.items():
+        here = [f"grid.cell={2 * spacing} mm", *quarter]
+        for name, more in (("particles", [particles(body, spacing) for body in ("plate", "projectile")]),
+                           ("projectile of elements, plate of particles",
+                            [particles("plate", spacing), elements("projectile", size=f"{spacing} mm")]),
+                           ("points", [])):
+            run = study.run(f"plugging_quarter_{name.replace(', ', ' ').replace(' ', '_')}_{n}", [*here, *more], seconds)
+            rows.append([f"{name}, {n} through the plate", value(run, "residual_velocity", -1),
+                         value(run, "hole", 1e3, 2), value(run, "mass_lost", 1e3, 2), eroded(run), *costs(run)])
+    study.add("A quarter in 3d of a plate of 200 mm (free at its edge; waves come back from there after 30 µs), to 60 µs; n particles or "
+              "points, not cells, through the plate. Failed particles stay, without tension.")
     study.add_table(["run", "residual velocity m/s", "hole mm", "failed mass g", "eroded", *COSTS], rows)
     shapes(study, finest, (20e-6, 60e-6, 100e-6), "plugging.png", lambda run: Scale(run, "plastic_strain", 1.0),
            [-30, 30, -35, 60], "Plastic strain, 20 through the plate")
@@ -353,11 +365,23 @@ def spear(study):
     study.add("In 3D, the paper's sizes: 2.03 mm in the plate (6 through it), 0.88 mm in the projectile, an O-grid; plate held at two edges.")
     study.add_table(titles, rows)
 
+    rows.clear()
+    for n, (spacing, seconds) in SPEAR_QUARTER.items():
+        here = [f"grid.cell={2 * spacing} mm", *QUARTER, "output.frames=12 us"]
+        for name, label, more in (
+                ("projectile of elements, plate of particles", "mixed", [particles("plate", spacing),
+                                                                         elements("projectile", kept, f"{spacing} mm")]),
+                ("points", "points", [])):
+            add(f"{name}, {n} through the plate", f"quarter_{label}_{n}", [*here, *more], seconds, ())
+    study.add("The same quarter with the paper's mixed model, a target of particles and a projectile of elements, and with points "
+              "alone; n particles or points, not cells, through the plate, elements of that size. Failed particles stay, without tension.")
+    study.add_table(titles, rows)
+
 
 def main():
     study = Study(__file__, "inputs/taylor_copper.yaml", ESTIMATED_SECONDS, __doc__)
     study.add("One set of materials, one contact law, one account of energy: what does the kinematics alone change, and what does it cost? "
-              "Points (`kinematics: mpm`), elements (`lagrangian_mesh`), and both in one scene. One thread everywhere.")
+              "Points (`kinematics: mpm`), elements (`lagrangian_mesh`), particles (`sph`), and two of them in one scene. One thread everywhere.")
     bars(study)
     walls(study)
     pairs(study)
@@ -365,7 +389,7 @@ def main():
     plugging(study)
     spear(study)
     discussion(study)
-    study.write("Kinematics: points, elements, and both")
+    study.write("Kinematics: points, elements and particles")
 
 
 if __name__ == "__main__":

@@ -76,8 +76,9 @@ std::string describe_motion(Frame frame, const RigidOptions& options);
 
 /// The loads on a body's faces, in the order of its marks.
 std::vector<int> loads_of(const Scene& scene, int body);
-/// A point of the body belongs to the face of a load.
-bool lies_on_face(const Scene& scene, const FaceLoad& load, const Solid& solid, const Triple& x);
+/// How far a point or particle of the body belongs to the face of a load, 0 to 1.
+double face_share(const Scene& scene, const FaceLoad& load, const BodyOptions& body,
+                  const Triple& x);
 
 /// The domain of a scene as a box in grid axes.
 Box domain_box(const Scene& scene);

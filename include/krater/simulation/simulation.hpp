@@ -161,7 +161,8 @@ class Simulation {
   void restore_columns(const CheckpointBlob& points, const Body& body,
                        const std::vector<int>& sets);
   void choose_first_step();
-  Triple apply_body_force();  ///< on the points [N]
+  Acceleration body_force() const;  ///< of the scene; empty: none
+  Triple apply_body_force();        ///< on the points [N]
   void watch_impulses();
   std::string impulse_name(const ImpulsePair& pair) const;
   std::vector<FieldId> fields_of(const std::vector<int>& bodies) const;

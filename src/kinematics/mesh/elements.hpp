@@ -20,7 +20,7 @@ struct MeshStep::Elements {
   PointStore elements;
   NodeCorners corners_of;
   std::vector<std::int32_t> corners;
-  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes, start;
+  AlignedBuffer shares, forces, hourglass, hourglass_energy, remembered, nodes, changes, placed;
   std::vector<std::uint8_t> on_plane;  ///< bit per axis: a plane of symmetry holds the node
   std::size_t node_count = 0;
   mutable std::vector<std::array<std::int32_t, 2>> surface;  ///< found when it is asked for
@@ -32,6 +32,11 @@ struct MeshStep::Elements {
   bool erodes() const { return made_of.erosion.any(); }
   bool converts() const { return made_of.points.has_value(); }
 
+  /// Of a reference that is kept; 0: none is.
+  std::size_t placed_rows() const {
+    if (made_of.reference == ElementReference::current) return 0;
+    return static_cast<std::size_t>(made_of.mesh.dimension == 3 ? kPlaced<3> : kPlaced<2>);
+  }
   std::size_t corner_count() const { return static_cast<std::size_t>(made_of.mesh.corners()); }
   /// What elements keep from step to step beside their columns, and its length.
   template <class Visit>
@@ -67,6 +72,7 @@ struct MeshStep::Elements {
     visit(self.hourglass, groups * modes * kLanes);
     visit(self.hourglass_energy, groups * kLanes);
     visit(self.remembered, groups * kRemembered * kLanes);
+    if (self.placed_rows() > 0) visit(self.placed, groups * self.placed_rows() * kLanes);
   }
 };
 

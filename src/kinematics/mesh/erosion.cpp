@@ -38,6 +38,7 @@ void copy_element(MeshStep::Elements& b, int from, int to) {
   copy_lane(b.hourglass.data(), dim == 3 ? 12 : 2, from, to);
   copy_lane(b.hourglass_energy.data(), 1, from, to);
   copy_lane(b.remembered.data(), kRemembered, from, to);
+  if (b.placed_rows() > 0) copy_lane(b.placed.data(), b.placed_rows(), from, to);
 }
 
 /// Lanes beyond the last element repeat it.

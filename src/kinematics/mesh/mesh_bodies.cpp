@@ -72,6 +72,23 @@ void fill_record(const ElementBody& made_of, const ElementColumns& c, std::size_
     for (int k = 0; k < 9; k += 4) put(F->offset + kLanes * k, 1.0);
 }
 
+/// References, where elements keep one: the start.
+void place_references(MeshStep::Elements& body) {
+  const Mesh& mesh = body.made_of.mesh;
+  const std::size_t rows = body.placed_rows(), dim = static_cast<std::size_t>(mesh.dimension),
+                    lanes = static_cast<std::size_t>(body.elements.groups()) * kLanes;
+  body.placed.reserve(rows * lanes);
+  for (std::size_t i = 0; i < lanes && rows > 0; ++i) {
+    double* to = body.placed.data() + i / kLanes * rows * kLanes + i % kLanes;
+    for (std::size_t I = 0; I < body.corner_count(); ++I) {
+      const auto n = static_cast<std::size_t>(
+          body.corners[(i / kLanes * body.corner_count() + I) * kLanes + i % kLanes]);
+      for (std::size_t a = 0; a < dim; ++a) to[(dim * I + a) * kLanes] = mesh.nodes[n][a];
+    }
+    to[(rows - 1) * kLanes] = 1;
+  }
+}
+
 /// What is sorted by lanes; padding repeats the last element.
 void sort_by_lanes(const std::vector<double>& volumes, MeshStep::Elements& body) {
   const Mesh& mesh = body.made_of.mesh;
@@ -88,6 +105,7 @@ void sort_by_lanes(const std::vector<double>& volumes, MeshStep::Elements& body)
         body.corners[to] = mesh.elements[from];
         body.shares.data()[to] = body.made_of.density * volumes[from];
       }
+  place_references(body);
   body.forces.reserve(groups * corners *
                       static_cast<std::size_t>(dim == 3 ? kForceDoubles<3> : kForceDoubles<2>) *
                       kLanes);
@@ -104,12 +122,8 @@ void place_nodes(const std::vector<double>& volumes, MeshStep::Elements& body) {
   body.node_count = made_of.mesh.nodes.size();
   body.nodes.reserve(kNode * body.node_count);
   body.changes.reserve(kChange * body.node_count + kNode);  // read eight at a time
-  const bool keeps_start = made_of.reference == ElementReference::initial;
-  if (keeps_start) body.start.reserve(kChange * body.node_count + kNode);
   for (std::size_t n = 0; n < body.node_count; ++n) {
     double* node = body.node(n);
-    for (std::size_t a = 0; a < 3 && keeps_start; ++a)
-      body.start.data()[kChange * n + a] = made_of.mesh.nodes[n][a];
     for (std::size_t a = 0; a < static_cast<std::size_t>(made_of.mesh.dimension); ++a) {
       node[a] = made_of.mesh.nodes[n][a];
       node[4 + a] = made_of.velocities.empty() ? 0 : made_of.velocities[n][a];
@@ -164,7 +178,7 @@ MeshStep::MeshStep(const DomainSides& domain, const MeshKernels& kernels, Audit&
       pushing_{pushing_sides(domain)},
       kernels_{kernels},
       audit_{audit},
-      loads_{std::make_unique<MeshLoads>(LoadOptions{}, BodyForce{}, domain.frame)} {}
+      loads_{std::make_unique<MeshLoads>(LoadOptions{}, Acceleration{}, domain.frame)} {}
 
 MeshStep::~MeshStep() = default;
 

@@ -6,15 +6,12 @@
 #include <numbers>
 
 #include "kinematics/mesh/elements.hpp"
-#include "krater/core/parallel.hpp"
 
 namespace krater {
 
 namespace {
 
-constexpr std::size_t kGiven = 9;    // of faces, of damping, of the body force
-constexpr std::size_t kChunk = 512;  // nodes
-constexpr double kLooks = 1e-6;      // cosine above which a face looks along an axis
+constexpr double kLooks = 1e-6;  // cosine above which a face looks along an axis
 
 using Face = std::array<std::int32_t, 4>;
 using Areas = std::array<Triple, 4>;  // int N_I n dA of the corners of a face
@@ -69,7 +66,7 @@ double outwards(const FaceLoad& load) { return load.side == 0 ? -1 : 1; }
 
 }  // namespace
 
-MeshLoads::MeshLoads(const LoadOptions& options, BodyForce body_force, Frame frame)
+MeshLoads::MeshLoads(const LoadOptions& options, Acceleration body_force, Frame frame)
     : options_{options}, body_force_{std::move(body_force)}, frame_{frame} {}
 
 /// By where the face was at the start, and how it looked.
@@ -118,9 +115,9 @@ void MeshLoads::add(MeshStep::Elements& b, double dt) {
   if (!any()) return;
   OfBody& of = bodies_[&b];
   find_faces(b, of);
-  of.given.assign(kGiven * b.node_count, 0.0);
+  of.changes.begin(b.node_count);
   press(b, of, dt);
-  push_masses(b, of, dt);
+  of.changes.push(masses(b), body_force_, options_.damping, time_, dt);
   drive(b, of);
 }
 
@@ -145,35 +142,21 @@ void MeshLoads::press(MeshStep::Elements& b, OfBody& of, double dt) const {
                 ? -value[0] * areas[I][a]
                 : value[a] *
                       std::max(0.0, outwards(load) * areas[I][static_cast<std::size_t>(load.axis)]);
-        const double dv = dt * force / b.node(n)[3];
-        b.change(n)[a] += dv;
-        of.given[kGiven * n + a] += dv;
+        of.changes.give(n, a, b.change(n), dt * force / b.node(n)[3]);
       }
     }
   }
 }
 
-/// The body force, and damping of what the step is without it.
-void MeshLoads::push_masses(MeshStep::Elements& b, OfBody& of, double dt) const {
-  const double half = 0.5 * options_.damping * dt;
-  const auto dim = static_cast<std::size_t>(dimension(frame_));
-  if (body_force_)  // one after the other: an expression has one place for its variables
-    for (std::size_t n = 0; n < b.node_count; ++n) {
-      const double* node = b.node(n);
-      const Triple push = body_force_({node[0], node[1], node[2]}, b.made_of.mesh.nodes[n], time_);
-      for (std::size_t a = 0; a < dim; ++a) of.given[kGiven * n + 6 + a] = dt * push[a];
-    }
-  for_each((b.node_count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t n = chunk * kChunk; n < std::min((chunk + 1) * kChunk, b.node_count); ++n) {
-      double *node = b.node(n), *change = b.change(n), *given = of.given.data() + kGiven * n;
-      if (!(node[3] > 0)) continue;
-      for (std::size_t a = 0; a < dim; ++a) {
-        change[a] += given[6 + a];
-        given[3 + a] = -half * (2 * node[4 + a] + change[a]) / (1 + half);
-        change[a] += given[3 + a];
-      }
-    }
-  });
+LoadChanges::Masses MeshLoads::masses(MeshStep::Elements& b) const {
+  return {b.node_count, dimension(frame_), [&b](std::size_t n) {
+            const double* node = b.node(n);
+            return LoadedMass{node[3],
+                              {node[0], node[1], node[2]},
+                              b.made_of.mesh.nodes[n],
+                              {node[4], node[5], node[6]},
+                              b.change(n)};
+          }};
 }
 
 void MeshLoads::drive(MeshStep::Elements& b, OfBody& of) const {
@@ -185,36 +168,15 @@ void MeshLoads::drive(MeshStep::Elements& b, OfBody& of) const {
       for (std::size_t a = 0; a < 3; ++a) {
         if (!load.value[a]) continue;
         const double more = load.value[a](time_) - b.node(n)[4 + a] - b.change(n)[a];
-        b.change(n)[a] += more;
-        of.given[kGiven * n + a] += more;
+        of.changes.give(n, a, b.change(n), more);
       }
     }
   }
 }
 
-void MeshLoads::book(const MeshStep::Elements& b, Audit& audit) const {
+void MeshLoads::book(MeshStep::Elements& b, Audit& audit) const {
   const auto at = bodies_.find(&b);
-  if (at == bodies_.end()) return;
-  std::array<double, 3> work{};
-  std::array<Triple, 3> impulse{};
-  for (std::size_t n = 0; n < b.node_count; ++n) {
-    const double *node = b.nodes.data() + kNode * n, *change = b.changes.data() + kChange * n,
-                 *given = at->second.given.data() + kGiven * n;
-    for (std::size_t kind = 0; kind < 3; ++kind)
-      for (std::size_t a = 0; a < 3; ++a) {
-        const double J = node[3] * given[3 * kind + a];
-        work[kind] += J * (node[4 + a] + 0.5 * change[a]);
-        impulse[kind][a] += J;
-      }
-  }
-  audit.load_work += work[0];
-  audit.damping_work += work[1];
-  audit.external_work += work[0] + work[1] + work[2];
-  for (std::size_t a = 0; a < 3; ++a) {
-    audit.load_impulse[a] += impulse[0][a];
-    audit.damping_impulse[a] += impulse[1][a];
-    audit.external_impulse[a] += impulse[0][a] + impulse[1][a] + impulse[2][a];
-  }
+  if (at != bodies_.end()) at->second.changes.book(masses(b), audit);
 }
 
 }  // namespace krater

@@ -28,14 +28,15 @@ ElementData MeshStep::data(Elements& b) {
           .remembered = b.remembered.data(),
           .nodes = b.nodes.data(),
           .changes = b.changes.data(),
-          .start = b.start.data(),
+          .placed = b.placed.data(),
           .columns = b.columns,
           .stages = b.made_of.stages,
           .stage_count = b.made_of.stage_count,
           .q_lin = b.made_of.q_lin,
           .q_quad = b.made_of.q_quad,
           .held = b.made_of.held,
-          .reference = b.made_of.reference};
+          .reference = b.made_of.reference,
+          .refresh_strain = b.made_of.refresh_strain};
 }
 
 ElementScratch MeshStep::scratch() {
@@ -116,6 +117,7 @@ void MeshStep::book(const std::vector<ElementResult>& results, const Standing& o
     const ElementResult& r = results[c];
     audit_.internal += r.internal + r.hourglass;
     audit_.book_events(r.ledger);
+    audit_.new_references += r.renewed;
     if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
     audit_.unfelt += r.internal + r.hourglass;
     law_work += r.ledger.barotropic_work + (r.hourglass - r.hourglass_before);
@@ -330,8 +332,8 @@ std::size_t MeshStep::memory() const {
   std::size_t doubles = 0;
   for (const auto& b : bodies_)
     doubles += b->elements.capacity() + b->shares.size() + b->forces.size() + b->hourglass.size() +
-               b->hourglass_energy.size() + b->remembered.size() + b->nodes.size() +
-               b->changes.size() + b->corners.size() / 2;
+               b->hourglass_energy.size() + b->remembered.size() + b->placed.size() +
+               b->nodes.size() + b->changes.size() + b->corners.size() / 2;
   return 8 * doubles;
 }
 

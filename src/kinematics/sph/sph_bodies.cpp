@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "kinematics/sph/particles.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
+#include "krater/points/load_fields.hpp"
 
 namespace krater {
 
@@ -27,6 +29,7 @@ SphColumns columns_of(const Layout& layout) {
           .viscous = state(field::ViscousPressure{}),
           .energy = state(field::InternalEnergy{}),
           .sound_speed = state(field::SoundSpeed{}),
+          .share = state(field::LoadShare{}),
           .local_gradient = local(field::StepGradient{}),
           .local_rate = local(field::DilatationRate{}),
           .local_shear = local(field::ShearModulus{}),
@@ -60,7 +63,9 @@ void make_room(int dim, SphStep::Particles& body) {
   body.remembered.reserve(2 * groups * kLanes);
   body.changes.reserve(kSphChange * groups * kLanes + kLanes);  // read eight at a time
   body.reference.reserve(3 * groups * kLanes);
+  body.reference_density.reserve(groups * kLanes);
   body.deformation.reserve(body.fixed() ? 9 * groups * kLanes : 0);
+  std::fill_n(body.reference_density.data(), groups * kLanes, body.made_of.density);
   for (std::size_t g = 0; g < groups; ++g) {
     std::fill_n(body.remembered.data() + 2 * g * kLanes, kLanes, body.made_of.shear_modulus);
     for (std::size_t k = 0; k < 9 && body.fixed(); k += 4)
@@ -71,16 +76,20 @@ void make_room(int dim, SphStep::Particles& body) {
             .data()[(3 * g + static_cast<std::size_t>(a)) * kLanes + static_cast<std::size_t>(l)] =
             body.points.at(body.columns.position + kLanes * a, kLanes * static_cast<int>(g) + l);
   }
+  if (!body.adaptive()) return;
+  body.first.reserve(3 * groups * kLanes);
+  std::copy_n(body.reference.data(), 3 * groups * kLanes, body.first.data());
 }
 
 }  // namespace
 
-void declare_particles(double density, Layout& layout) {
+void declare_particles(double density, bool face_loads, Layout& layout) {
   layout.state<field::Id>(0, kMethod);
   layout.state<field::Position>(0, kMethod);
   layout.state<field::Velocity>(0, kMethod);
   layout.state<field::Mass>(0, kMethod);
   layout.state<field::Density>(density, kMethod);
+  if (face_loads) layout.state<field::LoadShare>(0, kMethod);
   layout.local_output<field::StepGradient>(kMethod);
 }
 
@@ -95,12 +104,20 @@ SphStep::SphStep(const DomainSides& domain, IsaLevel level, Audit& audit)
       dim_{dimension(domain.frame)},
       level_{level},
       pushing_{pushing_sides(domain)},
-      audit_{audit} {
+      audit_{audit},
+      loads_{std::make_unique<SphLoads>(LoadOptions{}, Acceleration{}, dimension(domain.frame))} {
   if (domain.frame == Frame::axisymmetric)
     throw std::invalid_argument("particles in axial symmetry");
 }
 
 SphStep::~SphStep() = default;
+
+void SphStep::set_loads(std::unique_ptr<SphLoads> loads) { loads_ = std::move(loads); }
+
+void SphStep::set_time(double time) {
+  loads_->set_time(time);
+  for (PushingSide& side : pushing_) side.set_time(time);
+}
 
 void SphStep::add(SphBody made_of) {
   auto body = std::make_unique<Particles>();

@@ -7,8 +7,8 @@ namespace {
 
 template <int Dim, SphKernel Kind>
 SphKernels* make(SphReference reference) {
-  if (reference == SphReference::initial) return new Sweeps<Dim, Kind, SphReference::initial>;
-  return new Sweeps<Dim, Kind, SphReference::current>;
+  if (reference == SphReference::current) return new Sweeps<Dim, Kind, SphReference::current>;
+  return new Sweeps<Dim, Kind, SphReference::initial>;  // adaptive ones differ in their data
 }
 
 template <int Dim>

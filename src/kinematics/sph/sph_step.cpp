@@ -5,6 +5,7 @@
 
 #include "kinematics/sph/particles.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/kinematics/sph/sph_loads.hpp"
 
 namespace krater {
 
@@ -21,13 +22,13 @@ SphData SphStep::data(Particles& b) const {
           .held = b.held.data(),
           .remembered = b.remembered.data(),
           .reference = b.reference.data(),
+          .reference_density = b.reference_density.data(),
           .deformation = b.deformation.data(),
           .changes = b.changes.data(),
           .columns = b.columns,
           .stages = b.made_of.stages,
           .stage_count = b.made_of.stage_count,
           .h = b.made_of.options.length(),
-          .density = b.made_of.density,
           .q_lin = b.made_of.q_lin,
           .q_quad = b.made_of.q_quad,
           .zero_energy = b.made_of.options.zero_energy,
@@ -144,6 +145,53 @@ void SphStep::find_forces() {
   find_limit(results);
   for (std::size_t c = 0; c < chunks_.size(); ++c)
     bodies_[chunks_[c].body]->flat += static_cast<std::size_t>(results[c].flat);
+  find_areas();
+}
+
+/// X <- x, rho_0 <- rho, F <- 1 of bodies that are strained too far somewhere: columns are not
+/// touched.
+void SphStep::renew_references(const std::vector<SphResult>& results) {
+  for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    Particles& b = *bodies_[s];
+    double stretch = 0;
+    for (std::size_t c = 0; c < results.size(); ++c)
+      if (chunks_[c].body == s) stretch = std::max(stretch, results[c].stretch);
+    if (!b.adaptive() || !(stretch > 2 * b.made_of.options.refresh_strain)) continue;
+    for (int i = 0; i < kLanes * b.points.groups(); ++i) {
+      for (int a = 0; a < dim_; ++a)
+        b.reference.data()[(3 * (i / kLanes) + a) * kLanes + i % kLanes] =
+            b.points.at(b.columns.position + kLanes * a, i);
+      b.reference_density.data()[i] = b.points.at(b.columns.density, i);
+      for (int k = 0; k < 9; ++k)
+        b.deformation.data()[(9 * (i / kLanes) + k) * kLanes + i % kLanes] = k % 4 == 0 ? 1 : 0;
+    }
+    b.kernels->place(data(b), false, 0, b.points.groups());
+    b.neighbours.make(b.motion.data(), b.points.count());
+    audit_.new_references += 1;
+  }
+}
+
+/// Of the bodies that are pressed, by the sweep that sums forces; nothing else reads their records
+/// of load from here on.
+void SphStep::find_areas() {
+  const auto pressed = [&](const Particles& b) { return loads_->presses(b.made_of.body); };
+  if (std::none_of(bodies_.begin(), bodies_.end(), [&](const auto& b) { return pressed(*b); }))
+    return;
+  over_groups([&](Particles& b, const SphData& d, int first, int last, std::size_t) {
+    if (pressed(b)) b.kernels->show_unit(d, first, last);
+  });
+  for (auto& b : bodies_) {
+    if (!pressed(*b)) continue;
+    b->neighbours.reflect_load(b->load.data());
+    b->areas.reserve(7 * b->group_count() * kLanes);
+  }
+  over_groups([&](Particles& b, SphData d, int first, int last, std::size_t) {
+    if (!pressed(b)) return;
+    d.zero_energy = d.artificial_stress = 0;
+    d.force = b.areas.data();
+    d.held = d.force + 3 * kLanes * d.groups;
+    b.kernels->forces(d, first, last);
+  });
 }
 
 Triple SphStep::force_of(int s, int i) const {
@@ -169,7 +217,17 @@ double SphStep::force(double dt) {
       change[3] = 0;
     }
   });
+  for (auto& b : bodies_) loads_->add(*b, dt);
   return dt;
+}
+
+/// Planes of symmetry are booked as what all but them leaves (push_from_sides).
+void SphStep::book_loads() {
+  for (auto& b : bodies_) {
+    const Triple given = loads_->book(*b, audit_);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
+      if (mirrored(a)) audit_.wall_impulse[a] -= given[a];
+  }
 }
 
 void SphStep::push_from_sides(Particles& b, int first, int last, double dt, SideSums& sums) const {
@@ -181,12 +239,12 @@ void SphStep::push_from_sides(Particles& b, int first, int last, double dt, Side
     const double mass = b.points.at(b.columns.mass, i);
     Triple v = before, all{};
     for (std::size_t a = 0; a < dim; ++a) {
-      if (domain_.sides[a][0].kind == BoundaryKind::symmetry ||
-          domain_.sides[a][1].kind == BoundaryKind::symmetry)
+      if (mirrored(a))
         sums.impulse[a] += mass * change[a];  // of the images: all else is between particles
       v[a] += change[a];
     }
     bool pushed = false;
+    double given = 0;  // work of sides that move, per mass
     for (std::size_t s = 0; s < pushing_.size(); ++s) {
       const double missing =
           pushing_[s].missing(x, v, b.standoff[s][static_cast<std::size_t>(i)], dt);
@@ -196,6 +254,7 @@ void SphStep::push_from_sides(Particles& b, int first, int last, double dt, Side
       for (std::size_t a = 0; a < dim; ++a) {
         v[a] += push[a];
         all[a] += push[a];
+        given += push[a] * pushing_[s].velocity[a];
       }
     }
     if (!pushed) continue;
@@ -204,6 +263,8 @@ void SphStep::push_from_sides(Particles& b, int first, int last, double dt, Side
       change[3] -= all[a] * (before[a] + 0.5 * change[a]);
       sums.impulse[a] += mass * all[a];
     }
+    change[3] += given;
+    sums.work += mass * given;
     sums.heat += mass * change[3];
   }
 }
@@ -215,11 +276,13 @@ void SphStep::meet(double dt) {
   });
   for (const SideSums& s : sums) {
     audit_.wall_heat += s.heat;
+    audit_.wall_work += s.work;
     for (std::size_t a = 0; a < 3; ++a) audit_.wall_impulse[a] += s.impulse[a];
   }
 }
 
 Standing SphStep::move(double dt, const Standing& others) {
+  book_loads();
   over_groups([](Particles& b, const SphData& d, int first, int last, std::size_t) {
     b.kernels->place(d, true, first, last);
   });
@@ -235,6 +298,7 @@ Standing SphStep::move(double dt, const Standing& others) {
   });
   find_limit(results);  // or the fault
   book(results, others);
+  renew_references(results);
   find_forces();
   audit_.contact_pairs = others.contact_pairs;
   return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};
@@ -245,17 +309,25 @@ std::vector<double> SphStep::state(int s) const {
   const std::size_t lanes = b.group_count() * kLanes;
   std::vector<double> out = b.neighbours.places();
   out.insert(out.end(), b.remembered.data(), b.remembered.data() + 2 * lanes);
-  if (b.fixed()) out.insert(out.end(), b.deformation.data(), b.deformation.data() + 9 * lanes);
+  if (!b.fixed()) return out;
+  out.insert(out.end(), b.deformation.data(), b.deformation.data() + 9 * lanes);
+  out.insert(out.end(), b.reference_density.data(), b.reference_density.data() + lanes);
   return out;
 }
 
 bool SphStep::set_state(int s, const std::vector<double>& state) {
   Particles& b = *bodies_[static_cast<std::size_t>(s)];
   const std::size_t lanes = b.group_count() * kLanes, places = b.neighbours.places().size();
-  if (state.size() != places + (b.fixed() ? 11 : 2) * lanes) return false;
+  if (state.size() != places + (b.fixed() ? 12 : 2) * lanes) return false;
   b.neighbours.make_from(state.data(), b.points.count());
   std::copy_n(state.data() + places, 2 * lanes, b.remembered.data());
-  if (b.fixed()) std::copy_n(state.data() + places + 2 * lanes, 9 * lanes, b.deformation.data());
+  if (!b.fixed()) return true;
+  std::copy_n(state.data() + places + 2 * lanes, 9 * lanes, b.deformation.data());
+  std::copy_n(state.data() + places + 11 * lanes, lanes, b.reference_density.data());
+  for (int i = 0; i < b.points.count(); ++i)
+    for (int a = 0; a < dim_; ++a)
+      b.reference.data()[(3 * (i / kLanes) + a) * kLanes + i % kLanes] =
+          state[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(a)];
   return true;
 }
 
@@ -269,7 +341,7 @@ std::size_t SphStep::memory() const {
   for (const auto& b : bodies_) {
     for (const AlignedBuffer* buffer :
          {&b->motion, &b->load, &b->correction, &b->power, &b->force, &b->held, &b->remembered,
-          &b->reference, &b->deformation, &b->changes})
+          &b->reference, &b->deformation, &b->changes, &b->areas})
       bytes += 8 * buffer->size();
     bytes += 8 * b->points.capacity() + b->neighbours.memory();
   }

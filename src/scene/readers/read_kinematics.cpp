@@ -78,6 +78,21 @@ void read_erosion(Block& mesh, MeshOptions& options, Reading& reading) {
 
 }  // namespace
 
+int read_reference(Block& parent, double& strain, Reading& reading) {
+  const Node* node = parent.find("reference");
+  if (node == nullptr || node->kind == Node::Kind::scalar)
+    return parent.choice<int>("reference", {{"current", 0}, {"initial", 1}, {"adaptive", 2}}, 0);
+  Block block{node, node->path, *node, reading.problems};
+  if (const Node* inner = block.require("adaptive", "or current, initial, adaptive")) {
+    Block adaptive{inner, inner->path, *inner, reading.problems};
+    strain = adaptive.number({"strain", "1", Range::positive, strain,
+                              "greatest Green-Lagrange strain on one reference"});
+    block.record("adaptive", adaptive.finish());
+  }
+  parent.record("reference", block.finish());
+  return 2;
+}
+
 Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
   if (node.kind == Node::Kind::scalar) {
     if (node.text == "mpm") return string_node("mpm");
@@ -109,10 +124,8 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     body.mesh->element = mesh.number(
         {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
     read_hourglass(mesh, body.mesh->hourglass, reading);
-    body.mesh->reference = mesh.choice<ElementReference>(
-        "reference",
-        {{"current", ElementReference::current}, {"initial", ElementReference::initial}},
-        ElementReference::current);
+    body.mesh->reference =
+        static_cast<ElementReference>(read_reference(mesh, body.mesh->refresh_strain, reading));
     read_erosion(mesh, *body.mesh, reading);
     block.record("lagrangian_mesh", mesh.finish());
   }

@@ -48,9 +48,7 @@ Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& r
   out.correction = block.choice<SphCorrection>(
       "correction", {{"linear", SphCorrection::linear}, {"none", SphCorrection::none}},
       out.correction);
-  out.reference = block.choice<SphReference>(
-      "reference", {{"current", SphReference::current}, {"initial", SphReference::initial}},
-      out.reference);
+  out.reference = static_cast<SphReference>(read_reference(block, out.refresh_strain, reading));
   return block.finish();
 }
 
@@ -107,12 +105,6 @@ void check_particles(Reading& reading) {
   if (scene.method.reference != Reference::current)
     fail(
         "has a reference of its own: leave out method.reference and say sph: {reference: initial}");
-  if (scene.body_force || scene.loads.any())
-    fail("knows neither body_force, damping nor loads yet; use kinematics: mpm");
-  for (const auto& axis : scene.grid.boundary)
-    for (const Boundary& side : axis)
-      if (side.drives())
-        fail("knows no side that drives: give the body a velocity against a wall instead");
   refuse_idle("sph", place, reading);
 }
 

@@ -43,6 +43,9 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading);
 void check_rigid(Reading& reading);
 /// `kinematics:` of a body. Returns the resolved key.
 Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading);
+/// `reference: current | initial | adaptive | {adaptive: {strain: 0.3}}` of elements and particles:
+/// 0, 1, 2.
+int read_reference(Block& parent, double& strain, Reading& reading);
 /// `sph:` in it, null: all defaults. Returns the resolved block.
 Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& reading);
 /// Particles along a cell: a whole number, or the scene is refused.

@@ -93,14 +93,11 @@ struct ByCorners {
     if constexpr (current) {
       find_geometry(x, e);
     } else {
-      for (int I = 0; I < N; ++I) {
-        const std::int32_t* lanes = d.corners + (N * g + I) * kLanes;
-        Pack at[8];
-        for (int l = 0; l < kLanes; ++l) at[l] = loadu(d.start + 4 * lanes[l]);
-        transpose8(at);
-        for (int a = 0; a < D; ++a) r.X[I][a] = at[a];
-      }
+      const double* from = d.placed + kPlaced<D> * kLanes * g;
+      for (int I = 0; I < N; ++I)
+        for (int a = 0; a < D; ++a) r.X[I][a] = load(from + (D * I + a) * kLanes);
       find_geometry(r.X, r.start);
+      scale_geometry(load(from + D * N * kLanes), r.start);
       carry(x, r, e);
     }
     measure = plane_measure(x, e.volume);
@@ -112,6 +109,28 @@ struct ByCorners {
     else
       carry(x, r, e);
     measure = plane_measure(x, e.volume);
+  }
+  /// New references of elements that are strained too far on theirs; which they are.
+  template <Holding Kind>
+  KRATER_FORCE_INLINE Mask renew(const ElementData& d, int g, const Values& x) const {
+    ElementGeometry<Pack, Frame> now;
+    find_geometry(x, now);
+    const Mask far = renewable(r, e, now, d.refresh_strain);
+    if (bits(far) == 0) return far;
+    if constexpr (keeps(Kind)) {
+      Pack Q[size], held[size];
+      load_hourglass<D>(d, g, Q);
+      load_hourglass<D>(d, g, held);
+      carry_stress(r, now, e.volume, x, held);
+      for (int k = 0; k < size; ++k)
+        store(d.hourglass + (size * g + k) * kLanes, select(far, held[k], Q[k]));
+    }
+    double* to = d.placed + kPlaced<D> * kLanes * g;
+    for (int I = 0; I < N; ++I)
+      for (int a = 0; a < D; ++a) store(to + (D * I + a) * kLanes, select(far, x[I][a], r.X[I][a]));
+    double* share = to + D * N * kLanes;
+    store(share, select(far, e.volume / now.volume, load(share)));
+    return far;
   }
   KRATER_FORCE_INLINE Pack volume() const { return e.volume; }
   KRATER_FORCE_INLINE Pack reference_volume() const { return current ? e.volume : r.start.volume; }

@@ -7,6 +7,7 @@
 ///   corners [corner][8 lanes]          shares, the mass of each corner [corner][8]
 ///   Q of the hourglass [component][8]  forces [8][corner][kForceDoubles]: nodes sum them
 ///   energy of the hourglass [8]        G, tr D of the last step, 1/dt of the next [3][8]
+///   references [kPlaced][8]
 /// Nodes: x, m, v, heat per mass of the step (8 doubles), and the change of velocity of the step.
 #include <cstdint>
 
@@ -31,15 +32,16 @@ struct ElementData {
   const std::int32_t* corners;
   const double* shares;
   double *forces, *hourglass, *hourglass_energy, *remembered;
-  double* nodes;        ///< 8 each
-  double* changes;      ///< 4 each
-  const double* start;  ///< where nodes were, 4 each
+  double* nodes;    ///< 8 each
+  double* changes;  ///< 4 each
+  double* placed;   ///< references other than the current one
   ElementColumns columns;
   const Stage* const* stages;
   int stage_count;
   double q_lin, q_quad;
   HourglassOptions held;
   ElementReference reference;
+  double refresh_strain;  ///< of an adaptive reference
 };
 
 struct ElementScratch {
@@ -51,6 +53,9 @@ struct ElementScratch {
 inline constexpr int kElementGroups = 8;  ///< groups that a stage works on at once
 inline constexpr int kKeptPacks = 68;
 inline constexpr int kRemembered = 3;
+/// Rows of a reference: places of the corners, and its volume by theirs (placed_element.hpp).
+template <int Dim>
+inline constexpr int kPlaced = (Dim == 3 ? 8 : 4) * Dim + 1;
 /// Doubles of the force on a corner: its components, and padding.
 template <int Dim>
 inline constexpr int kForceDoubles = Dim == 3 ? 4 : 2;
@@ -58,6 +63,7 @@ inline constexpr int kForceDoubles = Dim == 3 ? 4 : 2;
 /// What a sweep over some groups leaves behind; combined in their order.
 struct ElementResult {
   double internal = 0, hourglass = 0, hourglass_before = 0;  ///< [J]
+  int renewed = 0;                                           ///< references
   double max_rate = 0;                                       ///< 1/dt at CFL 1 [1/s]
   int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the element
   Ledger ledger;

@@ -6,7 +6,7 @@
 ///   traction       f_I = t int N_I n . N dA        N: outward axis of the load's `face`
 ///   velocity       v+ = v(t) of the faces' nodes, before contact and sides
 ///   body force     f_I = m_I b(x, X, t)
-///   damping        f_I = -eta m_I (v- + v+)/2, so that no step of eta dt overshoots
+///   damping        f_I = -eta m_I (v- + v+)/2
 /// over the faces as they are now. int N_I n dA = dV/dx_I: a body under pressure all around is in
 /// equilibrium with the uniform stress -p to round-off. In axial symmetry dA holds 2 pi r; both by
 /// two Gauss points along each edge, which is exact.
@@ -15,23 +15,20 @@
 /// and those of a body whose elements become points, end with the elements of the start's faces:
 /// points that elements became carry none. A pressure acts along the true normal, where points
 /// (kinematics/mpm/node_loads.hpp), whose surface is not known, take N.
-/// Work is that of the mean velocity, sum f . (v- + v+)/2 dt, whatever contact and sides did after.
-#include <functional>
+/// Masses and works: kinematics/load_changes.hpp.
 #include <map>
 #include <vector>
 
 #include "krater/kinematics/audit.hpp"
+#include "krater/kinematics/load_changes.hpp"
 #include "krater/kinematics/load_options.hpp"
 #include "krater/kinematics/mesh/mesh_step.hpp"
 
 namespace krater {
 
-/// Acceleration [m/s^2] at x (at the start: X) and time t, along grid axes.
-using BodyForce = std::function<Triple(const Triple& x, const Triple& X, double t)>;
-
 class MeshLoads {
  public:
-  MeshLoads(const LoadOptions& options, BodyForce body_force, Frame frame);
+  MeshLoads(const LoadOptions& options, Acceleration body_force, Frame frame);
 
   bool any() const { return options_.any() || body_force_; }
   void set_time(double time) { time_ = time; }
@@ -40,7 +37,7 @@ class MeshLoads {
   /// Adds to the changes of velocity of a step, which hold those of the stress.
   void add(MeshStep::Elements& body, double dt);
   /// Works and impulses of the step, when all changes are final.
-  void book(const MeshStep::Elements& body, Audit& audit) const;
+  void book(MeshStep::Elements& body, Audit& audit) const;
 
  private:
   struct Loaded {
@@ -50,17 +47,17 @@ class MeshLoads {
   struct OfBody {
     std::size_t elements = ~std::size_t{0};  ///< when the faces were found
     std::vector<Loaded> faces;
-    std::vector<double> given;  ///< per node dv of faces, of damping, of the body force
+    LoadChanges changes;
   };
   bool selects(const FaceLoad& load, const Mesh& mesh,
                const std::array<std::int32_t, 4>& face) const;
   void find_faces(const MeshStep::Elements& body, OfBody& out) const;
   void press(MeshStep::Elements& body, OfBody& of, double dt) const;
-  void push_masses(MeshStep::Elements& body, OfBody& of, double dt) const;
+  LoadChanges::Masses masses(MeshStep::Elements& body) const;
   void drive(MeshStep::Elements& body, OfBody& of) const;
 
   LoadOptions options_;
-  BodyForce body_force_;
+  Acceleration body_force_;
   Frame frame_;
   double time_ = 0;
   std::map<const MeshStep::Elements*, OfBody> bodies_;

@@ -42,6 +42,7 @@ struct ElementBody {
   bool barotropic = false;  ///< its pressure does not know its energy
   HourglassOptions held;
   ElementReference reference = ElementReference::current;
+  double refresh_strain = 0.3;
   ErosionOptions erosion;
   std::optional<PointsOfElements> points;  ///< what its elements become; none: they are eroded
 };

@@ -157,7 +157,7 @@ KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& 
   constexpr int D = Shape::D, N = Shape::N;
   double* record = w.local + was.local * d.columns.local_stride;
   store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, dtL);
-  Pack extra = 0.0;  // on the initial reference det f is the ratio
+  Pack extra = 0.0;  // on another reference det f is the ratio
   if constexpr (Shape::current) {
     const Pack det_f = det_minus_one(dtL) + 1.0, ratio = shape.volume() / (was.volume * det_f);
     extra = 2.0 * (ratio - 1.0) / (ratio + 1.0);
@@ -183,7 +183,7 @@ KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& 
   }
 }
 
-/// After the stages: the forces of the next step.
+/// After the stages: the forces of the next step, on a new reference where that is due.
 template <class Frame, Holding Kind, ElementReference On>
 KRATER_FORCE_INLINE void find_next_forces(const ElementData& d, const double* kept,
                                           const ElementViews& view, int g, ElementResult& out) {
@@ -197,9 +197,20 @@ KRATER_FORCE_INLINE void find_next_forces(const ElementData& d, const double* ke
     }
   Shape shape;
   shape.place(d, g, at.x);
-  find_group_forces<Kind>(
-      d, view, g, shape, at,
-      {load(kept + Kept::lengths * kLanes), load(kept + (Kept::lengths + 1) * kLanes)}, out);
+  Lengths length{load(kept + Kept::lengths * kLanes), load(kept + (Kept::lengths + 1) * kLanes)};
+  if constexpr (!Shape::current) {
+    const Mask renewed = d.reference == ElementReference::adaptive
+                             ? shape.template renew<Kind>(d, g, at.x)
+                             : Pack(0.0) > Pack(0.0);
+    if (bits(renewed) != 0) {
+      out.renewed += __builtin_popcount(bits(renewed & first_lanes(d.count - kLanes * g)));
+      shape.place(d, g, at.x);
+      Pack share[N];
+      load_shares<D>(d, g, share);
+      length = lengths_of(shape, share, plane_measure(at.x, shape.volume()));
+    }
+  }
+  find_group_forces<Kind>(d, view, g, shape, at, length, out);
 }
 
 /// Before the stages: work into e, strain, density, and where the corners go.

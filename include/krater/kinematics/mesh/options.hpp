@@ -37,13 +37,15 @@ struct ErosionOptions {
 inline constexpr const char* kPointsOf = "_points";
 
 /// Where gradients are taken (kinematics/mesh/placed_element.hpp).
-enum class ElementReference { current, initial };
+/// Adaptive ones begin as initial ones, and are taken anew, element by element.
+enum class ElementReference { current, initial, adaptive };
 
 struct MeshOptions {
   double element = 0;  ///< edge [m]: a whole number of them fits along each axis of a block
   std::shared_ptr<const Mesh> mesh;  ///< of what is no block; null: a block
   HourglassOptions hourglass;
   ElementReference reference = ElementReference::current;
+  double refresh_strain = 0.3;  ///< adaptive: greatest Green-Lagrange strain on one reference
   ErosionOptions erosion;
   bool converts = false;  ///< what erosion takes out becomes points
 };

@@ -10,11 +10,20 @@
 /// reference (theory 3), adjoint on both. On the initial one density is rho_0/J, hourglass does not
 /// change it, and V is a measure, not the volume between the corners.
 ///
-/// Hourglass on the initial reference: gamma_0 is not orthogonal to x, so modes are pulled back,
+/// An adaptive reference begins as the initial one and is taken anew where the element is, when
+/// the greatest component of |F^T F - 1|/2 passes a bound: X <- x, F <- 1, with the volume that it
+/// has, V_0 <- J V_0, b_0, t_0 those of the corners times V_0 by their volume. Columns, nodes and
+/// energies are not touched, and V_0 stays m/rho to round-off; its forces are those of another
+/// method from then on. An element whose corners hold less than half of its volume keeps its own.
+///
+/// Hourglass on such a reference: gamma_0 is not orthogonal to x, so modes are pulled back,
 ///   q_a = sum_I gamma_0aI x_I,  q^_a = F^T q_a,  Q^ <- s (Q^ + K_0 dq^),
 ///   f_I = - sum_a F Q^_a gamma_0aI - (sum_a q_a (x) Q^_a) B_0I,
 /// with K_0 the table of kinematics/mesh/hourglass.hpp at the start: objective, without moment, and
-/// without plastic flow the gradient of an energy.
+/// without plastic flow the gradient of an energy. A new reference keeps what is stored, Q^ K_0^-1
+/// Q^/2. As K_ka of bending goes with V/a_k^2, that is Q^_ka a_k/sqrt V (of twist, nearly); the
+/// force is another then, by up to the power 3/2 of the stretch. To keep the force instead, F Q^_a,
+/// is to store more when stretched: cycles of 2 % made energy without end.
 #pragma once
 
 #include "krater/kinematics/mesh/hourglass.hpp"
@@ -29,6 +38,15 @@ struct ReferenceElement {
   ElementGeometry<Pack, Frame> start;  ///< at X
   Pack F[3][3];                        ///< over tensor axes
 };
+
+template <class Frame>
+KRATER_FORCE_INLINE void scale_geometry(Pack share, ElementGeometry<Pack, Frame>& e) {
+  e.volume = share * e.volume;
+  for (int I = 0; I < corner_nodes(Frame::dim); ++I) {
+    for (int i = 0; i < Frame::dim; ++i) e.b[I][i] = share * e.b[I][i];
+    e.t[I] = share * e.t[I];
+  }
+}
 
 /// F of the corners x, and the geometry carried along.
 template <class Frame>
@@ -117,6 +135,37 @@ KRATER_FORCE_INLINE void add_pulled_force(const HourglassFrame<Pack, Frame::dim>
         f[I][i] = f[I][i] - fma(carried[i], h.gamma[a][I], q[a][i] * (per_volume * on_B));
     }
   }
+}
+
+/// Strained beyond `bound`, and whole enough where it is, `now`, to take that for a reference.
+template <class Frame>
+KRATER_FORCE_INLINE Mask renewable(const ReferenceElement<Frame>& r,
+                                   const ElementGeometry<Pack, Frame>& carried,
+                                   const ElementGeometry<Pack, Frame>& now, double bound) {
+  Pack greatest = 0.0;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b <= a; ++b) {
+      Pack C = a == b ? -1.0 : 0.0;
+      for (int i = 0; i < 3; ++i) C = fma(r.F[i][a], r.F[i][b], C);
+      greatest = max(greatest, abs(C));
+    }
+  return (greatest > Pack(2 * bound)) & (now.volume > 0.5 * carried.volume);
+}
+
+/// Q^ on the reference `now` at x, of volume V, from that on r.
+template <class Frame>
+KRATER_FORCE_INLINE void carry_stress(const ReferenceElement<Frame>& r,
+                                      const ElementGeometry<Pack, Frame>& now, Pack V,
+                                      const Pack (&x)[corner_nodes(Frame::dim)][Frame::dim],
+                                      Pack (&Q)[hourglass_size(Frame::dim)]) {
+  constexpr int D = Frame::dim, modes = hourglass_modes(D);
+  HourglassFrame<Pack, D> before, after;
+  find_hourglass(r.start, r.X, before);
+  find_hourglass(now, x, after);
+  const Pack grown = sqrt(V / r.start.volume);
+  for (int k = 0; k < D; ++k)
+    for (int a = 0; a < modes; ++a)
+      Q[modes * k + a] = grown * (after.per_a[k] / before.per_a[k]) * Q[modes * k + a];
 }
 
 }  // namespace krater::inline KRATER_ISA

@@ -11,7 +11,7 @@
 /// and what a group has beside its columns in arrays of `groups` records:
 ///   correction [6][8]   power [8]   force [3][8]   remembered [2][8]: G and tr D of the last step
 ///   held [4][8]: of the forces, what holds zero-energy modes, and what it takes from motion [W]
-///   reference [3][8]: places at the start      deformation [9][8]: F from there
+///   reference [3][8], reference_density [8]: places and densities there   deformation [9][8]: F
 #include <cstdint>
 
 #include "krater/core/batch_types.hpp"
@@ -24,6 +24,7 @@ namespace krater {
 /// Offsets in the record of a group; -1: absent.
 struct SphColumns {
   int id, position, velocity, mass, density, stress, pressure, viscous, energy, sound_speed;
+  int share;  ///< marks of loads
   int local_gradient, local_rate, local_shear;
   int stride, local_stride;
 };
@@ -50,13 +51,13 @@ struct SphData {
   int count, groups;
   const NeighbourRows* neighbours;
   double *motion, *load;
-  double *correction, *power, *force, *held, *remembered, *reference, *deformation;
+  double *correction, *power, *force, *held, *remembered, *reference, *reference_density,
+      *deformation;
   const double* changes;  ///< of velocity in the step and heat per mass, 4 for each particle
   SphColumns columns;
   const Stage* const* stages;
   int stage_count;
-  double h;        ///< [m]
-  double density;  ///< at the start
+  double h;  ///< [m]
   double q_lin, q_quad, zero_energy;
   double artificial_stress;
   double spacing;  ///< at the start [m]
@@ -76,6 +77,7 @@ struct SphResult {
   double internal = 0;             ///< [J]
   double max_rate = 0;             ///< 1/dt at CFL 1 [1/s]
   int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the particle
+  double stretch = 0;              ///< greatest component of |F^T F - 1|
   int flat = 0;                    ///< particles whose correction is not the full one
   Ledger ledger;
   Fault fault;
@@ -92,6 +94,8 @@ class SphKernels {
   /// K, sigma : L of the velocities now, records of load, and what the state allows of a step.
   virtual void correct(const SphData& data, int first, int last, SphResult& out) const = 0;
   virtual void forces(const SphData& data, int first, int last) const = 0;
+  /// A in the records of load is that of a stress of one.
+  virtual void show_unit(const SphData& data, int first, int last) const = 0;
   /// Work, strain and stages of a step dt; places and velocities at its end.
   virtual void strain(const SphData& data, const SphScratch& scratch, double dt, int first,
                       int last, SphResult& out) const = 0;

@@ -8,8 +8,8 @@
 /// images of particles, and what they do to the body is booked as the side's impulse. Walls act on
 /// the particles (kinematics/sides.hpp), half a spacing from the plane, for a particle is as wide;
 /// what started nearer stays as near. What a side takes from the motion of a particle is its heat.
-/// Kinetic + internal energy is constant to round-off.
-/// Not here: axial symmetry, sides that drive (issue 28).
+/// Kinetic + internal energy is constant to round-off. Loads: kinematics/sph/sph_loads.hpp.
+/// Not here: axial symmetry (issue 28).
 #include <memory>
 #include <vector>
 
@@ -37,7 +37,7 @@ struct SphBody {
 
 /// The columns that particles need beside those of their material: before and after its stages are
 /// made.
-void declare_particles(double density, Layout& layout);
+void declare_particles(double density, bool face_loads, Layout& layout);
 void declare_particle_results(Layout& layout);
 
 /// What particles say of themselves.
@@ -54,12 +54,17 @@ struct ParticleFault {
   Fault fault;
 };
 
+class SphLoads;
+
 class SphStep final : public Kinematics {
  public:
-  /// Throws std::invalid_argument in axial symmetry, and for a side that drives.
+  /// Throws std::invalid_argument in axial symmetry.
   SphStep(const DomainSides& domain, IsaLevel level, Audit& audit);
   ~SphStep() override;
 
+  /// What pushes from outside; before the first step, and at each one when it is.
+  void set_loads(std::unique_ptr<SphLoads> loads);
+  void set_time(double time);
   void add(SphBody body);
   void start();  ///< after the last body: lists, forces, energies, and the first limit of the step
 
@@ -90,19 +95,27 @@ class SphStep final : public Kinematics {
 
  private:
   struct SideSums {
-    double heat = 0;
+    double heat = 0, work = 0;  ///< work: of sides that move, from outside [J]
     Triple impulse{};
   };
   struct Chunk {
     std::size_t body;
     int first, last;
   };
+  /// A plane of symmetry across the axis.
+  bool mirrored(std::size_t axis) const {
+    return domain_.sides[axis][0].kind == BoundaryKind::symmetry ||
+           domain_.sides[axis][1].kind == BoundaryKind::symmetry;
+  }
   SphData data(Particles& body) const;
   SphScratch scratch();
   /// work(body, its data, first group, last group, number of the chunk).
   template <class Work>
   void over_groups(const Work& work);
   void renew_lists();
+  void renew_references(const std::vector<SphResult>& results);
+  void find_areas();
+  void book_loads();
   void push_from_sides(Particles& body, int first, int last, double dt, SideSums& sums) const;
   void find_limit(const std::vector<SphResult>& results);
   void book(const std::vector<SphResult>& results, const Standing& others);
@@ -115,6 +128,7 @@ class SphStep final : public Kinematics {
   std::vector<std::unique_ptr<Particles>> bodies_;
   std::vector<Chunk> chunks_;
   std::vector<AlignedBuffer> scratch_;
+  std::unique_ptr<SphLoads> loads_;
   TimeStepLimit limit_;
 };
 

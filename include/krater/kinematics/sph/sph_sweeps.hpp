@@ -4,6 +4,8 @@
 ///   N(v) = sum_j V_j (v_j - v_i) (x) grad W_ij   over the places of the reference,
 ///   current  L = N K,                    S = sigma,                  V the volume now
 ///   initial  F' = N K, L = F' F^-1,      S = (V/V0) sigma F^-T,      V0 that of the start
+/// and adaptive, the same: X <- x, V0 <- V, F <- 1 of all particles of a body when the greatest
+/// component of |F^T F - 1|/2 passes a bound; columns and energies stay as they are.
 ///   A_i = S_i K_i,   f_i = sum_j V_i V_j (A_i + A_j) grad W_ij
 ///   W_i = dt V sigma : (L(v-) + L(v+))/2,   sum_i W_i = - dt sum_i f_i . (v- + v+)/2 to round-off
 ///   e <- e + W/m + heat of sides,   f = I + dt L(v+), rho by det f,   x <- x + dt v+
@@ -23,8 +25,8 @@
 /// t_{n+1/2} (BatchData::energy_share 0), as of elements (kinematics/mesh/mesh_sweeps.hpp).
 #pragma once
 
-#include "krater/core/stability.hpp"
 #include "krater/kinematics/sph/sph_lanes.hpp"
+#include "krater/kinematics/sph/sph_limits.hpp"
 #include "krater/kinematics/sph/weights.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -36,6 +38,7 @@ class Sweeps final : public SphKernels {
   void place(const SphData& d, bool ends, int first, int last) const override;
   void correct(const SphData& d, int first, int last, SphResult& out) const override;
   void forces(const SphData& d, int first, int last) const override;
+  void show_unit(const SphData& d, int first, int last) const override;
   void strain(const SphData& d, const SphScratch& scratch, double dt, int first, int last,
               SphResult& out) const override;
 
@@ -50,6 +53,8 @@ class Sweeps final : public SphKernels {
                                  const Load& near, const Pack (&x)[Dim], Pack squared);
   template <bool Held>
   static void sum_forces(const SphData& d, int first, int last);
+  static Mat3<Pack> on_reference(const SphData& d, const SphViews& view, const Mat3<Pack>& stress,
+                                 int g);
   static Mat3<Pack> gradient(const SphData& d, const Axes<Dim>& N, const SymAxes<Pack, Dim>& K,
                              int g);
   static void strain_group(const SphData& d, const SphScratch& w, const SphViews& view, double dt,
@@ -72,7 +77,8 @@ void Sweeps<Dim, Kind, Reference>::place(const SphData& d, bool ends, int first,
       r[a] = fixed ? load(d.reference + (3 * g + a) * kLanes) : view.position(g, a);
       r[4 + a] = ends ? view.velocity(g, a) + change[a] : view.velocity(g, a);
     }
-    r[3] = fixed ? (1 / d.density) * view.mass(g) : view.mass(g) / view.density(g);
+    r[3] = fixed ? 1.0 / load(d.reference_density + kLanes * g) * view.mass(g)
+                 : view.mass(g) / view.density(g);
     store_records(d.motion + kMotion * kLanes * g, kMotion, r);
   }
 }
@@ -120,48 +126,19 @@ KRATER_FORCE_INLINE Mat3<Pack> Sweeps<Dim, Kind, Reference>::gradient(const SphD
   return rate;
 }
 
-KRATER_FORCE_INLINE void note_rate(const SphData& d, Pack rate, int kind, int g, SphResult& out) {
-  const Pack valid = select(first_lanes(d.count - kLanes * g), rate, Pack(0.0));
-  if (!(hmax(valid) > out.max_rate)) return;
-  for (int l = 0; l < kLanes; ++l)
-    if (get(valid, l) > out.max_rate) {
-      out.max_rate = get(valid, l);
-      out.limiter = kind;
-      out.limiting = kLanes * g + l;
-    }
-}
-
-/// Length of a particle, V^(1/d), but no more than h: a damping across a greater one would be more
-/// than critical.
-template <int Dim>
-KRATER_FORCE_INLINE Pack particle_length(const SphData& d, Pack volume) {
-  const Pack some = max(volume, Pack(1e-200));  // empty lanes have none
-  const Pack root = rcbrt(some), whole = Dim == 3 ? some * root * root : sqrt(some);
-  return min(Pack(d.h), whole);
-}
-
-/// The step of the stiffest motion, of frequency 2 c_L/l, damped by Q/c_L:
-///   dt = l/(Q + sqrt(Q^2 + c_L^2)),  Q = L/l (q_lin c + 2 q_quad L |tr D|),
-///   l = h c_L/sqrt(c_L^2 + c^2).
-/// That motion is one of free corners, where corrected gradients are long: of blocks its period
-/// allows 1.02 to 1.5 times l/c_L (both weights, h/dx 1.2 to 1.8, Poisson's ratio 0 to 0.49, shaken
-/// by a quarter of dx, flattened to a third), of eight particles alone 0.68; without faces 1.9. The
-/// viscosity of pairs damps an alternating motion by 2 z c/d sum_j V_j |W'|, at most 2.33 z c/h
-/// (Wendland in the plane) and near corners by a fifth more, which adds 0.7 z c l/h to Q.
-template <int Dim>
-KRATER_FORCE_INLINE void note_limits(const SphData& d, const SphViews& view, int g,
-                                     SphResult& out) {
-  const Pack c = view.sound_speed(g), rho = view.density(g),
-             G = load(d.remembered + 2 * kLanes * g),
-             tr_D = load(d.remembered + (2 * g + 1) * kLanes);
-  const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
-  const Pack per_length = (1 / d.h) * sqrt(1.0 + c * c / c_L_squared);
-  const Pack closing = max(Pack(0.0), -tr_D), length = particle_length<Dim>(d, view.mass(g) / rho);
-  const Pack viscous = per_length * length * fma((2.0 * d.q_quad) * length, closing, d.q_lin * c);
-  const Pack Qv = (0.7 * d.zero_energy / d.h) * c / per_length +
-                  select(closing > Pack(0.0), viscous, Pack(0.0));
-  note_rate(d, per_length * (Qv + sqrt(fma(Qv, Qv, c_L_squared))), 0, g, out);
-  note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
+/// S of a stress.
+template <int Dim, SphKernel Kind, SphReference Reference>
+KRATER_FORCE_INLINE Mat3<Pack> Sweeps<Dim, Kind, Reference>::on_reference(const SphData& d,
+                                                                          const SphViews& view,
+                                                                          const Mat3<Pack>& stress,
+                                                                          int g) {
+  if constexpr (fixed)
+    return (load(d.reference_density + kLanes * g) / view.density(g)) *
+           (stress * transpose(inverse(load_deformation(d, g))));
+  (void)d;
+  (void)view;
+  (void)g;
+  return stress;
 }
 
 template <int Dim, SphKernel Kind, SphReference Reference>
@@ -185,10 +162,7 @@ void Sweeps<Dim, Kind, Reference>::correct(const SphData& d, int first, int last
     const Sym3<Pack> sigma = whole_stress(view, g);
     const Mat3<Pack> L = gradient(d, N, K, g);
     store(d.power + kLanes * g, contract(sigma, sym(L)));
-    Mat3<Pack> S = as_matrix(sigma);
-    if constexpr (fixed)
-      S = (d.density / view.density(g)) * (S * transpose(inverse(load_deformation(d, g))));
-    const Axes<Dim> A = times(along_grid<Dim>(S), K);
+    const Axes<Dim> A = times(along_grid<Dim>(on_reference(d, view, as_matrix(sigma), g)), K);
     Pack r[at.size / 8][8];
     const auto put = [&r](int place, Pack value) { r[place / 8][place % 8] = value; };
     for (int k = 0; k < at.size; ++k) put(k, Pack(0.0));
@@ -291,6 +265,21 @@ void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last)
     sum_forces<false>(d, first, last);
 }
 
+template <int Dim, SphKernel Kind, SphReference Reference>
+void Sweeps<Dim, Kind, Reference>::show_unit(const SphData& d, int first, int last) const {
+  alignas(64) static constexpr double zeros[kLanes] = {};
+  const SphViews view = views_of(d, zeros);
+  const Pack one = 1.0, none = 0.0;
+  for (int g = first; g < last; ++g) {
+    const Mat3<Pack> S =
+        on_reference(d, view, {one, none, none, none, one, none, none, none, one}, g);
+    const Axes<Dim> A = times(along_grid<Dim>(S), load_correction<Dim>(d, g));
+    for (int k = 0; k < Dim * Dim; ++k)
+      for (int l = 0; l < kLanes; ++l)
+        d.load[at.size * (kLanes * g + l) + at.A + k] = get(A.c[k / Dim][k % Dim], l);
+  }
+}
+
 /// Before the stages: work into e, strain, places.
 template <int Dim, SphKernel Kind, SphReference Reference>
 KRATER_FORCE_INLINE void Sweeps<Dim, Kind, Reference>::strain_group(const SphData& d,
@@ -319,9 +308,10 @@ KRATER_FORCE_INLINE void Sweeps<Dim, Kind, Reference>::strain_group(const SphDat
   store_mat3(WriteView{record + d.columns.local_gradient, 0}, 0, dtL);
   if constexpr (fixed) {
     const Mat3<Pack> F = load_deformation(d, g), dF = dtL * F;
-    store_mat3(WriteView{d.deformation, 9 * kLanes}, g,
-               {F.xx + dF.xx, F.xy + dF.xy, F.xz + dF.xz, F.yx + dF.yx, F.yy + dF.yy, F.yz + dF.yz,
-                F.zx + dF.zx, F.zy + dF.zy, F.zz + dF.zz});
+    const Mat3<Pack> after{F.xx + dF.xx, F.xy + dF.xy, F.xz + dF.xz, F.yx + dF.yx, F.yy + dF.yy,
+                           F.yz + dF.yz, F.zx + dF.zx, F.zy + dF.zy, F.zz + dF.zz};
+    store_mat3(WriteView{d.deformation, 9 * kLanes}, g, after);
+    note_stretch(after, first_lanes(d.count - kLanes * g), out);
   }
   const Pack j = det_minus_one(dtL) + 1.0;
   store(w.length + local * kLanes, particle_length<Dim>(d, j * view.mass(g) / view.density(g)));
