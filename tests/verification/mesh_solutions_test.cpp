@@ -113,14 +113,6 @@ std::string text_of(const std::string& frame, double nu, const std::string& more
          "}}}\n";
 }
 
-void set_velocities(MeshRun& run, const NodeVectors& v) {
-  std::vector<double> state = run.mesh().state(0);
-  for (std::size_t n = 0; n < v.size(); ++n)
-    for (std::size_t a = 0; a < 3; ++a) state[8 * n + 4 + a] = v[n][a];
-  CHECK(run.mesh().set_state(0, state));
-  run.mesh().find_forces();
-}
-
 /// Forces after a step that moves the nodes by these.
 NodeVectors answer(const std::string& frame, const Mesh& mesh, NodeVectors moves,
                    const Matter& matter) {

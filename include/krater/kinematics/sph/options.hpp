@@ -8,8 +8,8 @@ namespace krater {
 enum class SphKernel { cubic_spline, wendland_c2, quadratic };
 /// Whether gradients are corrected to be exact for linear fields (kinematics/sph/correction.hpp).
 enum class SphCorrection { linear, none };
-/// Where weights and neighbours are those of: the places now, those at the start, or those where the
-/// body was last strained as far as it may be.
+/// Where weights and neighbours are those of: the places now, those at the start, or those where
+/// the body was last strained as far as it may be.
 enum class SphReference { current, initial, adaptive };
 
 struct SphOptions {
