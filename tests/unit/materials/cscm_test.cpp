@@ -164,6 +164,10 @@ TEST_SUITE("unit") {
     CHECK(s.q() <= 2 * 39.3e6 * (1 + 1e-12));
     s.strain({0, -1e-3, -1e-3}, 100);
     CHECK(s.q() == Approx(2 * 39.3e6).epsilon(1e-9));
+    // A point without a length does not soften, and does not divide by it.
+    Specimen point{kCards[1].bare()};
+    for (int i = 0; i < 2000; ++i) point.triaxial(2e-6, 0);
+    CHECK(point.q() == Approx(point.law.unconfined()).epsilon(1e-3));
   }
 
   TEST_CASE("cscm: slopes of damage by the energies per area") {

@@ -375,9 +375,10 @@ struct Cscm {
       const Real energy = fma(law.uniaxial(3.0 * flow.p, flow.q), Real(law.crushing - law.shearing),
                               Real(law.shearing));
       const Real most = Real(law.damages * kMost);
-      const Real brittle = 1.0 - law.left(law.brittle_growth(cracked, step.length), law.D);
-      const Real crushed =
-          1.0 - law.left(law.ductile_growth(worked, start, energy, step.length), law.B);
+      constexpr double shortest = 1e-9;  // a point that does not soften has no length
+      const Real length = max(Real(shortest), step.length);
+      const Real brittle = 1.0 - law.left(law.brittle_growth(cracked, length), law.D);
+      const Real crushed = 1.0 - law.left(law.ductile_growth(worked, start, energy, length), law.B);
       const Real ratio = min(Real(1.0), flow.q / max(Real(1e-30), 3.0 * flow.p));
       const Real soft = max(ductile, min(min(most, ratio * sqrt(ratio)), crushed));
       return {max(max(damage, soft), min(most, brittle)), soft, cracked, worked, start};
