@@ -233,7 +233,8 @@ struct Rht {
       const Real after = min(Real(1.0), flow.damage + parted(step.length, drawn));
       const Real modulus =
           law.solid.bulk_modulus(at * step.rho, step.v * per, own * at, step.energy) * per;
-      const Real seen = Real(0.0) * extension;  // only remembered: a NaN in it must be seen
+      // maxima and choices may lose a NaN of the state: it must be seen
+      const Real seen = Real(0.0) * (extension + damage + mean);
       return {max(Real(0.0), q),
               flow.plastic + seen,
               split,
