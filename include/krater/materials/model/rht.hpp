@@ -233,7 +233,7 @@ struct Rht {
       const Real after = min(Real(1.0), flow.damage + parted(step.length, drawn));
       const Real modulus =
           law.solid.bulk_modulus(at * step.rho, step.v * per, own * at, step.energy) * per;
-      const Real seen = Real(0.0) * extension;  // only remembered: a NaN in it must be seen
+      const Real seen = Real(0.0) * (damage + extension + mean);  // a NaN in them must be seen
       return {max(Real(0.0), q),
               flow.plastic + seen,
               split,
