@@ -37,7 +37,7 @@ frame: plane_strain
 grid:
   cell: 1 mm
   box: {{min: [0, 0], max: [48 mm, 48 mm]}}
-  refine: [{{region: {{box: {{min: [0, 0], max: [22 mm, 48 mm]}}}}, level: 1}}]
+  refine: [{{region: {{box: {{min: [0, 0], max: [30 mm, 48 mm]}}}}, level: 1}}]
 time: {{end: 12 us}}
 materials: {{metal: {METAL}}}
 contact: {{friction: 0}}
@@ -118,7 +118,8 @@ def contact():
         audit = summary(name)["audit"]
         check(abs(audit["energy_residual"]) < 1e-12 * audit["initial_energy"], f"energy closes, {name}",
               audit["energy_residual"])
-    check(abs(speeds["levels"][0]) < 0.01 * 5, "hardly pushed along the face", speeds)
+    # 6e-4 of the speed is what a prototype of this contact showed; bodies that end in their own cells' records show 1.5e-3
+    check(abs(speeds["levels"][0]) < 6e-4 * 5, "hardly pushed along the face", speeds)
     low, high = sorted((speeds["coarse"][2], speeds["fine"][2]))
     check(low - 0.02 * 5 < speeds["levels"][2] < high + 0.02 * 5, "and thrown back as on one level", speeds)
 

@@ -321,7 +321,7 @@ struct Cscm {
                            (pressure_share(flow.p, damage, ductile) - p_share);
       const Real crush = fma(p_share * flow.p, flow.volume, freed_q + freed_p);
       // Some are only remembered: a NaN in them must be seen.
-      const Real seen = Real(0.0) * (ductile + gap + crack + work + began);
+      const Real seen = Real(0.0) * (damage + ductile + gap + crack + work + began);
       return {q,
               flow.plastic + seen,
               {p_share * flow.p, Real(0.0)},
