@@ -123,6 +123,8 @@ FIGURES = {
     "hiermaier_al": lambda r: r.finest("hole (experiment 31.0 mm)", "hole mm", "^40 cells", "^20 cells"),
     "kinematics": lambda r: Figure("plugging, elements at 20 through the plate (measured 241.4 m/s)",
                                    r.cell("^elements, 20 through", "residual velocity") + " m/s"),
+    "levels": lambda r: Figure("time of three levels over the uniform grid, a plate in 3D (asked 0.2)",
+                               r.cell("^4.06 mm, level 2", "time over")),
     "manufactured": lambda r: Figure("error of the bar, G = 0.05, 128 cells, gimp (order)",
                                      r.tables[1].at("^gimp, tflip", "N = 128") + " m"),
     "concrete": lambda r: Figure("peaks of Holmquist-Johnson-Cook against quadrature, worst", f"{worst(r, 'off %'):.2f} %"),
