@@ -65,6 +65,7 @@ measures:
 
 REFUSED = {
     "another shape": (["method.shape=gimp"], "quadratic_bspline"),
+    "the filter of xpic": (["method.transfer=xpic"], "the filter of xpic knows one level"),
     "a fixed reference": (["method.reference=initial"], "method.reference: current"),
     "an odd number of points": (["method.points_per_direction=3"], "even number of points"),
     "a region outside": (["grid.refine=[{region: {box: {min: [20 mm, 0], max: [30 mm, 8 mm]}}, level: 1}]"],

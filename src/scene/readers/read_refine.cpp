@@ -89,6 +89,9 @@ std::string what_is_not_ready(const Scene& scene) {
   if (m.reference != Reference::current)
     return "finer cells need method.reference: current; points of a fixed reference never leave "
            "their cells, so that method.points_per_direction refines there";
+  if (m.transfer == Transfer::xpic)
+    return "finer cells need method.transfer: tflip, flip or apic; the filter of xpic knows one "
+           "level";
   if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
     return "finer cells need contact.normal: volume_gradient";
   for (const FaceLoad& load : scene.loads.faces)
