@@ -135,7 +135,8 @@ def good():
         done = krater(*words)
         check(done.returncode == 0 and re.search(expected, done.stdout, re.S) and not done.stderr
               and not re.search(r"\b(nan|inf)\b", done.stdout), "krater " + " ".join(map(str, words)))
-    laws = [line.split()[1] for line in krater("models").stdout.splitlines()]
+    # cards that are generated from a strength have no name of their own
+    laws = [line.split()[1] for line in krater("models").stdout.splitlines() if " {concrete: " not in line]
     for law in laws:
         done = krater("models", law)
         check(done.returncode == 0 and law in done.stdout, f"models {law}", f"{len(done.stdout.splitlines())} lines")
