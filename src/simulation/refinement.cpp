@@ -2,8 +2,10 @@
 #include "krater/simulation/refinement.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
 
@@ -31,6 +33,24 @@ void for_each_block(const GridGeometry& g, const Box& box, const Call& call) {
   for (key.i[0] = first.i[0]; key.i[0] <= last.i[0]; ++key.i[0])
     for (key.i[1] = first.i[1]; key.i[1] <= last.i[1]; ++key.i[1])
       for (key.i[2] = first.i[2]; key.i[2] <= last.i[2]; ++key.i[2]) call(key);
+}
+
+/// A map of more blocks than that fits no memory, and to list them takes minutes.
+void require_blocks(const GridGeometry& coarsest, const RefineOptions& rule, const Box& extent) {
+  constexpr double kMost = 1e7;
+  double blocks = 1;  // of the finest that are refined
+  const double edge = block_edge(coarsest.dimension) * std::ldexp(coarsest.h, 1 - rule.level);
+  for (int a = 0; a < coarsest.dimension; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    const double length =
+        std::min(extent.max[k], coarsest.upper(a)) - std::max(extent.min[k], coarsest.min[k]);
+    blocks *= std::max(1.0, length / edge);
+  }
+  if (blocks > kMost)
+    throw InputError(fmt::format(
+        "{}: a region of {:.3g} million blocks of cells, and 10 million are allowed; use a lower "
+        "level, a smaller region, or follow: BODY, which refines only around it",
+        rule.where, 1e-6 * blocks));
 }
 
 /// All blocks of the levels below `level` that reach into a box.
@@ -81,10 +101,12 @@ Box box_of(const GridGeometry& g, const BlockKey& key) {
 Refinement::Refinement(const Scene& scene, const GridGeometry& coarsest, const Bodies& bodies)
     : rules_{scene.grid.refine}, coarsest_{coarsest}, held_(scene.grid.refine.size()) {
   for (const RefineOptions& rule : rules_) {
-    if (rule.box || rule.region)
+    if (rule.box || rule.region) {
+      require_blocks(coarsest, rule, rule.box ? *rule.box : rule.region->extent(scene.frame));
       mark_region(scene, coarsest, rule, regions_);
-    else
+    } else {
       moves_ = true;
+    }
     std::vector<int>& offsets = offsets_.emplace_back();
     if (rule.field.empty()) continue;
     bool any = false;

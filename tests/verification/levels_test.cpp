@@ -88,7 +88,7 @@ TEST_SUITE("verification") {
         }
       }
       CHECK(scale > 1e3);
-      CHECK(worst < 2e-12 * scale);
+      CHECK(worst < 1e-12 * scale);  // rounding of v over a cell of level 2; 4e-13 seen in 3d
     }
   }
 

@@ -37,8 +37,8 @@ class Levels {
  public:
   explicit Levels(const GridGeometry& coarsest) : geometries_{coarsest} {}
 
-  /// The blocks of a map that is graded as above; drops those that do not lie in a refined one.
-  /// True: it is another map than before.
+  /// These blocks are refined, and all that grading and their own place ask for. True: it is another
+  /// map than before.
   bool set(BlockSet refined);
   /// Of the map, in their order.
   std::vector<BlockKey> refined() const;
