@@ -37,8 +37,8 @@ class Levels {
  public:
   explicit Levels(const GridGeometry& coarsest) : geometries_{coarsest} {}
 
-  /// These blocks are refined, and all that grading and their own place ask for. True: it is another
-  /// map than before.
+  /// These blocks are refined, and all that grading and their own place ask for. True: it is
+  /// another map than before.
   bool set(BlockSet refined);
   /// Of the map, in their order.
   std::vector<BlockKey> refined() const;

@@ -30,8 +30,8 @@ Box box_of(const GridGeometry& geometry, const BlockKey& key);
 class Refinement {
  public:
   using Bodies = std::vector<std::unique_ptr<Body>>;
-  /// Throws InputError where no body carries the field that a rule looks at, and where a region holds
-  /// more blocks than can be listed.
+  /// Throws InputError where no body carries the field that a rule looks at, and where a region
+  /// holds more blocks than can be listed.
   Refinement(const Scene& scene, const GridGeometry& coarsest, const Bodies& bodies);
 
   /// Some rule does not hold for good.
