@@ -172,7 +172,8 @@ std::vector<NamedStage> make_stages(const StageFactory& factory, const MaterialP
   all.add_eos();
   all.add_burn();
   all.add_heating();
-  all.add("signal speed", factory.signal_speed(plan.q_lin, plan.q_quad, layout));
+  all.add("signal speed",
+          factory.signal_speed(plan.q_lin, plan.q_quad, plan.constants.density, layout));
   return std::move(all.stages);
 }
 

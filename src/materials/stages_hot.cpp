@@ -31,8 +31,9 @@ Stage* make_kinematics(bool keeps_F, Layout& layout) {
   return new KinematicsStage<false>{layout};
 }
 
-Stage* make_signal_speed(double q_lin, double q_quad, Layout& layout) {
-  return new SignalSpeedStage{q_lin, q_quad, layout};
+Stage* make_signal_speed(double q_lin, double q_quad, double density, Layout& layout) {
+  if (layout.find("failed")) return new SignalSpeedStage<true>{q_lin, q_quad, density, layout};
+  return new SignalSpeedStage<false>{q_lin, q_quad, density, layout};
 }
 
 constexpr StageFactory factory{

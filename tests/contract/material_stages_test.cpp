@@ -87,6 +87,29 @@ TEST_SUITE("contract") {
     }
   }
 
+  TEST_CASE("a failed point that is open meets the step with its G over rho0, others over rho") {
+    for (const Level& level : levels()) {
+      CAPTURE(std::string{level.name});
+      Recipe recipe;
+      recipe.model = "holmquist_johnson_cook";
+      Body body{*level.factory, recipe, 3, 3};
+      const double thin = kCopper.density / 50, G = kCopper.shear_modulus;
+      for (int i = 0; i < 3; ++i) body.state("density", i) = thin;
+      for (const int i : {0, 2}) body.state("damage", i) = body.state("failed", i) = 1;
+      body.state("density", 2) = kCopper.density * 1.02;  // failed and closed
+      body.step(1e-12);
+      REQUIRE(body.fault.kind == FaultKind::none);
+      CHECK(body.state("pressure", 0) <= 0);
+      CHECK(body.state("pressure", 2) > 0);
+      const double at[] = {kCopper.density, thin, kCopper.density * 1.02};
+      for (int i = 0; i < 3; ++i) {
+        const double c = body.state("sound_speed", i);
+        CHECK(body.local("signal_speed", i) ==
+              doctest::Approx(std::sqrt(2 * c * c + 4 * G / (3 * at[i]))).epsilon(1e-12));
+      }
+    }
+  }
+
   TEST_CASE("materials: a NaN in any field is reported, with its group and lane") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Recipe& recipe : all_recipes()) {

@@ -115,8 +115,8 @@ struct StageFactory {
                        Layout& layout);
   /// Always first: f -> sym H, rho, v, tr D, and F where it `keeps_F`.
   Stage* (*kinematics)(bool keeps_F, Layout& layout);
-  Stage* (*signal_speed)(double q_lin, double q_quad,
-                         Layout& layout);  ///< always last: c_L, Qv -> signal speed
+  /// Always last: c_L, Qv -> signal speed; `density` that of the start.
+  Stage* (*signal_speed)(double q_lin, double q_quad, double density, Layout& layout);
 };
 
 }  // namespace krater
