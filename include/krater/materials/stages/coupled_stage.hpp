@@ -5,7 +5,9 @@
 ///   s_{n+1} = s_tr q/q_tr,   p_{n+1} and e_{n+1} by Algorithm 1 (eos_stage.hpp), p >= `least`,
 /// with the work of the deviator and of viscosity; then plastic work, sound speed, failure. A law
 /// whose pressure needs no e has only the work in e. Plastic work is that of the deviator and what
-/// crushing does not give back: both are heat.
+/// crushing does not give back: both are heat. Rubble that is open (failed, p <= 0, q = 0) has no
+/// stiffness until it closes, at rho0 or above: c^2 = max(c0^2, modulus/rho0) there, not modulus/rho
+/// (signal_speed_stage.hpp does the same for G).
 #pragma once
 
 #include "krater/materials/model/coupled.hpp"
@@ -43,7 +45,7 @@ class CoupledStage final : public Stage {
       const Pack work = view(batch, work_)(g) + yield(batch, g, step, update.q, {v0, v1});
       close(batch, g, update, v1 - v0, work);
       flow(batch, g, update, v1);
-      sound(batch, g, update.modulus * v1);
+      sound(batch, g, stiffness(batch, g, update, v1));
       state_.set(batch, g, update.state);
       if constexpr (Fails<Law>) fail(batch, g, update.failed);
     }
@@ -102,6 +104,16 @@ class CoupledStage final : public Stage {
     eps.set(g, strain);
     view(batch, plastic_work_).set(g, work);
     batch.ledger->plastic_work += sum(view(batch, mass_)(g) * work);
+  }
+
+  /// c^2 of the end.
+  KRATER_FORCE_INLINE Pack stiffness(const BatchData& batch, int g, const auto& update,
+                                     Pack v) const {
+    const Pack closed = update.modulus * v;
+    if constexpr (!Fails<Law>) return closed;
+    const Mask open = update.failed & !(view(batch, p_)(g) > Pack(0.0)) & !(update.q > Pack(0.0));
+    const Pack rest = update.modulus * min(v, Pack(1.0 / law_.rho0));
+    return select(open, max(Pack(law_.c0 * law_.c0), rest), closed);
   }
 
   KRATER_FORCE_INLINE void sound(const BatchData& batch, int g, Pack c_squared) const {

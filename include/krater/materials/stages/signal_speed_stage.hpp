@@ -6,9 +6,9 @@
 /// the first for the free edges of a body (`tools/stability.py`),
 /// and the one check that the new state is finite. Without viscosity q_lin = q_quad = 0.
 ///
-/// A failed point that is open (p <= 0, s = 0) has no shear to bear: it gets some when it has closed,
-/// at the density rho0 or above, so that its G meets 1/rho0 and not 1/rho, which in a spray of
-/// rubble is a hundred times as much and would shorten every step.
+/// A failed point that is open (p <= 0, s = 0) has no shear to bear: it gets some when it has
+/// closed, at the density rho0 or above, so that its G meets 1/rho0 and not 1/rho, which in a spray
+/// of rubble is a hundred times as much and would shorten every step.
 #pragma once
 
 #include "krater/materials/batch_access.hpp"
