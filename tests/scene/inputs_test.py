@@ -21,6 +21,11 @@ SCENES = {
     "ogive_layered_plate": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "2 us", "coarse": "2 mm"},
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "round_nosed_rod": {"frames": ("axisymmetric",), "end": "1 us", "coarse": None},
+    # 3d: for tools/validate.
+    "snl/penetration": {"frames": ("axisymmetric",), "end": "20 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "snl/slab": {"frames": ("axisymmetric",), "end": "10 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "snl/three_kinematics": {"frames": ("3d",), "end": "20 us", "coarse": "25.4 mm"},
+    "snl/tilted": {"frames": ("3d",), "end": "20 us", "coarse": "101.6 mm"},
     "spear_plate": {"frames": ("3d",), "end": "1 us", "coarse": "4.06 mm"},
     "taylor_steel": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "1 us", "coarse": "0.762 mm"},
     "taylor_copper_sph": {"frames": ("3d",), "end": "1 us", "coarse": "0.762 mm"},
@@ -30,13 +35,17 @@ SCENES = {
 FRAMES = ("axisymmetric", "plane_strain", "3d")
 
 
+def name_of(path):
+    return str(path.relative_to(ROOT / "inputs").with_suffix(""))
+
+
 def step(path, scene, frame):
     values = [f"frame={frame}", f"time.end={scene['end']}"]
     if "cell" in scene:
         values.append(f"grid.cell={scene['cell']}")
     if frame == "3d":
         values.append(f"grid.cell={scene['coarse']}")
-    output = f"{path.stem}_{frame}"
+    output = f"{name_of(path).replace('/', '_')}_{frame}"
     done = run(output, *values, scene=path, threads=2)
     if not check(done.returncode == 0, f"{output} runs", done.stderr.strip().splitlines()[-1]):
         return
@@ -63,25 +72,27 @@ def answers(path, said):
 
 
 with Folder():
-    files = sorted((ROOT / "inputs").glob("*.yaml"))
+    files = sorted([*(ROOT / "inputs").glob("*.yaml"), *(ROOT / "inputs" / "snl").glob("*.yaml")])
+    files = [path for path in files if not re.search(r"^study:", path.read_text(encoding="utf-8"), re.MULTILINE)]
     check(len(files) >= 4, f"{len(files)} scenes in inputs/")
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     for name, scene in SCENES.items():
         if not set(FRAMES) <= {*scene["frames"], *scene.get("too_large", ())}:
             check(f"`{name}`" in readme, f"README says that {name} does not run in every frame")
     for path in files:
-        if not check(path.stem in SCENES, f"{path.name} is listed in this test"):
+        name = name_of(path)
+        if not check(name in SCENES, f"{name} is listed in this test"):
             continue
         own = krater("check", path)
         check(own.returncode == 0 and "estimate:" in own.stdout and not own.stderr, f"check {path.name}")
         answers(path, own.stdout)
         for frame in FRAMES:
-            if frame in SCENES[path.stem].get("too_large", ()):
+            if frame in SCENES[name].get("too_large", ()):
                 continue
-            if frame in SCENES[path.stem]["frames"]:
+            if frame in SCENES[name]["frames"]:
                 done = krater("check", path, "--set", f"frame={frame}")
                 check(done.returncode == 0, f"check {path.name} in {frame}", done.stderr)
-                step(path, SCENES[path.stem], frame)
+                step(path, SCENES[name], frame)
             else:
                 done = krater("check", path, "--set", f"frame={frame}")
                 check(done.returncode == 2 and path.name + ":" in done.stderr,
