@@ -39,12 +39,12 @@ OBLIQUE = """
 frame: plane_strain
 grid:
   cell: {cell}
-  box: {{min: [-8, -8], max: [408, 408]}}
+  box: {{min: [-8, -8], max: [328, 360]}}
 {refine}time: {{end: 120, cfl: 0.5}}
 method: {{stagger: false, cell_averaging: false}}
 materials: {{m: {{density: 1, youngs_modulus: 1 Pa, poisson_ratio: 0, strength: elastic, eos: linear}}}}
 bodies:
-  slab: {{material: m, shape: {{box: {{min: [0, -1, 0], max: [400, 1, 400]}}}},
+  slab: {{material: m, shape: {{box: {{min: [0, -1, 0], max: [320, 1, 350]}}}},
          velocity: ["{pulse}*{sin}", "{pulse}*{cos}"]}}
 output: {{frames: 120}}
 """
@@ -181,13 +181,13 @@ def many_faces(study):
 def oblique(study):
     """Velocities behind the edge where the mirrored pulse is, in the middle of the slab."""
     angle = np.radians(20)
-    n, start, edge, end = np.array([np.sin(angle), np.cos(angle)]), np.array([170.0, 190.0]), 240.0, 120.0
+    n, start, edge, end = np.array([np.sin(angle), np.cos(angle)]), np.array([135.0, 190.0]), 240.0, 120.0
     met = (edge - start[1]) / n[1]  # when its middle line meets the edge above its start
-    schemes = {"fine cells everywhere": (1, ""), "fine to coarse": (2, rule((-8, -8), (408, 236)))}
+    schemes = {"fine cells everywhere": (1, ""), "fine to coarse": (2, rule((-8, -8), (328, 236)))}
     rows = []
     for name, (cell, refine) in schemes.items():
         row = [name]
-        for width in (10, 14, 20):
+        for width in (10, 14):
             across = f"(x*{n[0]:.15g}+z*{n[1]:.15g}-{start @ n:.15g})"
             pulse = f"(abs({across})<{width} ? 1e-3*(cos(1.570796326794897*{across}/{width}))^2 : 0)"
             text = OBLIQUE.format(cell=cell, refine=refine, pulse=pulse, sin=n[0], cos=n[1])
@@ -201,9 +201,9 @@ def oblique(study):
             near = (np.abs(back) < 2 * width + 8) & (np.abs(x[:, 0] - start[0] - (end - met) * n[0]) < 25)
             row.append(per_cent(np.hypot(*v[near].T).max() / 0.5e-3))
         rows.append(row)
-    study.add("The same pulses at 20 degrees to the edge, in a slab of 400 x 400 fine cells: what comes back, in per cent. "
+    study.add("The same pulses at 20 degrees to the edge, in a slab of 320 x 350 fine cells: what comes back, in per cent. "
               "Demanded: less than 1 % from 14 cells on.")
-    study.add_table(["", "10 cells %", "14 cells %", "20 cells %"], rows)
+    study.add_table(["", "10 cells %", "14 cells %"], rows)
 
 
 def followed(study):
