@@ -286,7 +286,7 @@ void print_text(const Checked& of, const std::string& file) {
         count_text(cost.points), coarser);
   for (std::size_t b = 0; b < sim.bodies().size(); ++b)
     print_body(sim, scene, static_cast<int>(b), coarser);
-  for (const std::string& line : report_levels(sim)) fmt::print("{}\n", line);
+  for (const std::string& line : report_levels(sim, coarser)) fmt::print("{}\n", line);
   print_elements(sim);
   print_particles(sim);
   print_contact(scene);

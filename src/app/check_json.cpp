@@ -2,6 +2,7 @@
 #include "krater/app/check.hpp"
 
 #include "krater/app/effects.hpp"
+#include "krater/app/level_report.hpp"
 #include "krater/geometry/meshes/mesh.hpp"
 #include "krater/geometry/seeds/column.hpp"
 
@@ -135,6 +136,7 @@ Json check_json(const Checked& of) {
   out["cell"] = Json::of(scene.grid.cell);
   out["cells_looked_at"] = Json::of(of.coarser);
   out["bodies"] = bodies;
+  if (!scene.grid.refine.empty()) out["levels"] = levels_json(of.sim, of.coarser);
   if (of.sim.mesh() != nullptr) out["elements"] = elements_json(of.sim);
   out["time_step"] = step;
   out["contact"] = contact_json(scene);
@@ -144,7 +146,9 @@ Json check_json(const Checked& of) {
   std::vector<std::string> notes = scene.notes;
   for (const std::string& note : card_notes(scene)) notes.push_back(note);
   out["notes"] = texts(notes);
-  out["doubts"] = texts(doubts_of(scene));
+  std::vector<std::string> doubts = doubts_of(scene);
+  for (const std::string& doubt : doubt_levels(of.sim)) doubts.push_back(doubt);
+  out["doubts"] = texts(doubts);
   return out;
 }
 

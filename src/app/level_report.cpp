@@ -17,17 +17,34 @@ namespace {
 constexpr double kFewCells = 4;  ///< through a body: fewer do not bend as they should
 
 struct LevelCount {
-  double points = 0, bytes = 0;
-  int blocks = 0;
+  double cell = 0, points = 0, bytes = 0, blocks = 0;
 };
 
-std::map<int, LevelCount> count_levels(const Simulation& sim) {
-  std::map<int, LevelCount> out;
+/// All levels take the same steps, so a level's share of the time is that of its points.
+struct LevelAccount {
+  std::map<int, LevelCount> levels;
+  double points = 0, uniform = 0;  ///< of all levels; if all cells were of the finest
+  double finest = 0;               ///< cell [m]
+};
+
+LevelAccount account(const Simulation& sim, int coarser) {
+  LevelAccount out;
+  const int dim = sim.geometry().dimension;
+  const double times = std::pow(coarser, dim);
   for (const Patch& patch : sim.grid().patches()) {
-    LevelCount& count = out[patch.key.level];
-    count.points += patch.points.count();
-    count.bytes += 8.0 * static_cast<double>(patch.points.capacity() + patch.tile.nodes.size());
-    count.blocks += 1;
+    LevelCount& count = out.levels[patch.key.level];
+    count.cell = sim.grid().geometry(patch.key.level).h / coarser;
+    count.points += times * patch.points.count();
+    count.bytes +=
+        times * 8.0 * static_cast<double>(patch.points.capacity() + patch.tile.nodes.size());
+    count.blocks += times;
+  }
+  if (out.levels.empty()) return out;
+  const int finest = out.levels.rbegin()->first;
+  out.finest = out.levels.rbegin()->second.cell;
+  for (const auto& [level, count] : out.levels) {
+    out.points += count.points;
+    out.uniform += count.points * std::pow(corner_count(dim), finest - level);
   }
   return out;
 }
@@ -92,26 +109,38 @@ void doubt_thickness(const Simulation& sim, std::vector<std::string>& out) {
 
 }  // namespace
 
-std::vector<std::string> report_levels(const Simulation& sim) {
-  const Scene& scene = sim.scene();
+std::vector<std::string> report_levels(const Simulation& sim, int coarser) {
   std::vector<std::string> out;
-  if (scene.grid.refine.empty()) return out;
-  const std::map<int, LevelCount> levels = count_levels(sim);
-  double all = 0, uniform = 0;
-  const int finest = levels.empty() ? 0 : levels.rbegin()->first;
-  for (const auto& [level, count] : levels) {
-    all += count.points;
-    uniform += count.points * std::pow(corner_count(sim.geometry().dimension), finest - level);
-  }
-  for (const auto& [level, count] : levels)
+  const LevelAccount all = account(sim, coarser);
+  if (sim.scene().grid.refine.empty() || all.levels.empty()) return out;
+  for (const auto& [level, count] : all.levels)
     out.push_back(
-        fmt::format("level {}: cell {:.4g} m, {} points in {} blocks, {}, {:.0f} % of the time",
-                    level, sim.grid().geometry(level).h, count_text(count.points), count.blocks,
-                    bytes_text(count.bytes), 100 * count.points / all));
+        fmt::format("level {}: cell {:.4g} m, {} points in {:.0f} blocks, {}, {:.0f} % of the time",
+                    level, count.cell, count_text(count.points), count.blocks,
+                    bytes_text(count.bytes), 100 * count.points / all.points));
   out.push_back(fmt::format(
       "levels: cells of {:.4g} m everywhere would be {} points, {:.3g} times as many; all levels "
       "take the step of the finest",
-      sim.grid().geometry(finest).h, count_text(uniform), uniform / all));
+      all.finest, count_text(all.uniform), all.uniform / all.points));
+  return out;
+}
+
+Json levels_json(const Simulation& sim, int coarser) {
+  const LevelAccount all = account(sim, coarser);
+  Json list = Json::array();
+  for (const auto& [level, count] : all.levels) {
+    Json& entry = list.items.emplace_back();
+    entry["level"] = Json::of(level);
+    entry["cell"] = Json::of(count.cell);
+    entry["points"] = Json::of(count.points);
+    entry["blocks"] = Json::of(count.blocks);
+    entry["bytes"] = Json::of(count.bytes);
+    entry["share_of_time"] = Json::of(count.points / all.points);
+  }
+  Json out;
+  out["list"] = list;
+  out["uniform_points"] = Json::of(all.uniform);
+  out["saving"] = Json::of(all.points > 0 ? all.uniform / all.points : 1);
   return out;
 }
 

@@ -137,10 +137,7 @@ void BoundarySet::add_columns(BlockGrid& grid, Plane& plane) const {
     const bool rigid = field < rigid_.size() && rigid_[field];
     if (plane.condition->pushes() && rigid) continue;
     for (int n = 0; n < kBlockNodes; ++n) {
-      std::array<int, 3> index{};
-      for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)
-        index[static_cast<unsigned>(a)] =
-            block.key.i[static_cast<unsigned>(a)] * edge + rest % edge;
+      const std::array<int, 3> index = index_in(block.key, n, dimension);
       if (index[static_cast<unsigned>(plane.axis)] == plane.line)
         add_column(grid, plane, block, index);
     }

@@ -87,7 +87,8 @@ double ContactSet::whole_volume(const GridGeometry& g, const std::array<int, 3>&
 }
 
 void ContactSet::relink(const BlockGrid& grid) {
-  groups_.clear();
+  std::vector<Group> before;  // their memory is used again
+  before.swap(groups_);
   geometries_.clear();
   for (int level = 0; level < grid.levels().count(); ++level)
     geometries_.push_back(grid.geometry(level));
@@ -97,7 +98,15 @@ void ContactSet::relink(const BlockGrid& grid) {
     std::size_t end = n + 1;
     while (end < blocks.size() && blocks[end].key == blocks[n].key) ++end;
     if (end - n > 1) {
-      groups_.push_back({n, static_cast<int>(end - n), {}, {}, {}, {}, {}, {}, {}});
+      Group& group = groups_.emplace_back();
+      if (!before.empty()) {
+        group = std::move(before.back());
+        before.pop_back();
+      }
+      group.first = n;
+      group.fields = static_cast<int>(end - n);
+      group.sources.clear();
+      group.begin_step();
     }
     n = end;
   }
@@ -147,21 +156,26 @@ void ContactSet::link(const BlockGrid& grid, Group& group) const {
   const AxisLinks links = axis_links(home.key);
   group.sources.resize(static_cast<std::size_t>(size_ * group.fields));
   group.inverse.resize(static_cast<std::size_t>(size_));
-  for (int n = 0; n < size_; ++n) {
+  const int last = dimension - 1;
+  for (int row = 0; row < size_; row += padded_) {
     int slot = 0, local = 0;
     double inverse = 1;
-    for (int a = 0; a < dimension; ++a) {
+    for (int a = 0; a < last; ++a) {
       const AxisLink& link =
-          links[static_cast<unsigned>(a)][static_cast<unsigned>(n / stride_[a] % padded_)];
+          links[static_cast<unsigned>(a)][static_cast<unsigned>(row / stride_[a] % padded_)];
       slot = 3 * slot + link.slot;
       local = local * edge_ + link.local;
       inverse *= link.inverse;
     }
-    group.inverse[static_cast<std::size_t>(n)] = inverse;
-    for (int f = 0; f < group.fields; ++f) {
-      const int block = around[static_cast<std::size_t>(f * slots + slot)];
-      group.sources[static_cast<std::size_t>(f * size_ + n)] =
-          block < 0 ? -1 : block * kBlockNodes + local;
+    for (int i = 0; i < padded_; ++i) {
+      const AxisLink& link = links[static_cast<unsigned>(last)][static_cast<unsigned>(i)];
+      const int at = local * edge_ + link.local, from = 3 * slot + link.slot;
+      group.inverse[static_cast<std::size_t>(row + i)] = inverse * link.inverse;
+      for (int f = 0; f < group.fields; ++f) {
+        const int block = around[static_cast<std::size_t>(f * slots + from)];
+        group.sources[static_cast<std::size_t>(f * size_ + row + i)] =
+            block < 0 ? -1 : block * kBlockNodes + at;
+      }
     }
   }
 }
@@ -221,11 +235,10 @@ Triple ContactSet::exchange(double* a, double* b, const Contact& contact, double
 /// impulse must not bring them back. False: nothing is left to push along.
 bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
   if (geometry(key.level).planes_on_knots()) return true;  // no node lies on them
-  for (int a = geometry_.dimension - 1, rest = contact.node; a >= 0; --a, rest /= edge_) {
-    const auto axis = static_cast<unsigned>(a);
-    const int index = key.i[axis] * edge_ + rest % edge_;
+  const std::array<int, 3> index = index_in(key, contact.node, geometry_.dimension);
+  for (unsigned axis = 0; axis < static_cast<unsigned>(geometry_.dimension); ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
-      if (index != (side == 0 ? 1 : geometry_.cells[axis] + 1)) continue;
+      if (index[axis] != (side == 0 ? 1 : geometry_.cells[axis] + 1)) continue;
       const BoundaryKind kind = conditions_[axis][side].kind;
       if (kind == BoundaryKind::sticky) return false;
       if (kind == BoundaryKind::symmetry) contact.normal[axis] = 0;
@@ -254,20 +267,20 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& 
 
 void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns,
                                Group& group, Scratch& scratch, const RigidBodies& rigid) const {
-  group.contacts.clear();
-  group.shares.clear();
-  group.heat.clear();
-  group.rigid_pushes.clear();
-  group.given.clear();
+  group.begin_step();
   bool filled = false;
+  const auto place_of = [this](int n) {  // among the nodes of the block and around it
+    const std::array<int, 3> local = index_in({}, n, geometry_.dimension);
+    int at = 0;
+    for (int a = 0; a < geometry_.dimension; ++a)
+      at += (local[static_cast<unsigned>(a)] + kHalo) * stride_[a];
+    return at;
+  };
   const auto block = [&](int f) -> const NodeBlock& {
     return grid.node_blocks()[group.first + static_cast<std::size_t>(f)];
   };
   for (int n = 0; n < kBlockNodes; ++n) {
     const auto mass = [&](int f) { return block(f).nodes[kNodeDoubles * n + moved::mass]; };
-    int at = 0;
-    for (int a = geometry_.dimension - 1, rest = n; a >= 0; --a, rest /= edge_)
-      at += (rest % edge_ + kHalo) * stride_[a];
     for (int a = 0; a < group.fields; ++a)
       for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
         if (!(mass(b) > 0)) continue;
@@ -278,6 +291,7 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
         filled = true;
         const std::array fluid{is_fluid(body_of(block(a).field)),
                                is_fluid(body_of(block(b).field))};
+        const int at = place_of(n);
         Contact contact{n, a, b, at, {}, false, fluid};
         if (!find_contact(scratch, at, contact)) continue;
         if (contact.even && options_.normal == ContactNormal::logistic_regression)

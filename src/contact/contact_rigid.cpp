@@ -30,10 +30,10 @@ ContactSet::Strike ContactSet::strike_of(const BlockGrid& grid, const Group& gro
              options_.friction_of(body_of(a.field), body_of(b.field))};
   if (!a_is_rigid)
     for (double& n : out.normal) n = -n;
-  for (int axis = geometry_.dimension - 1, rest = contact.node; axis >= 0; --axis, rest /= edge_) {
+  const std::array<int, 3> index = index_in(a.key, contact.node, geometry_.dimension);
+  for (int axis = 0; axis < geometry_.dimension; ++axis) {
     const auto k = static_cast<unsigned>(axis);
-    out.place[k] =
-        geometry(a.key.level).place(a.key.i[k] * edge_ + rest % edge_, static_cast<int>(k));
+    out.place[k] = geometry(a.key.level).place(index[k], axis);
   }
   return out;
 }

@@ -115,13 +115,15 @@ void BlockGrid::rebuild(bool drop_empty) {
 template <class Add>
 void BlockGrid::add_shadows(const Add& add) {
   const int dimension = geometry().dimension;
-  const std::vector<NodeBlock> there = node_blocks_;
+  const std::size_t there = node_blocks_.size();
   const auto under_finer = [&](const BlockKey& key) {
+    if (key.level + 1 >= levels_.count()) return false;
     for (int c = 0; c < corner_count(dimension); ++c)
       if (levels_.is_refined(at_corner(key, c, -1, dimension))) return true;
     return false;
   };
-  for (const NodeBlock& block : there) {
+  for (std::size_t n = 0; n < there; ++n) {
+    const NodeBlock block = node_blocks_[n];
     if (!under_finer(block.key)) continue;
     for (int s = 0; s < neighbour_count(dimension); ++s)
       if (const BlockKey key = shifted(block.key, s, dimension); under_finer(key))

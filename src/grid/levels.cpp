@@ -71,12 +71,10 @@ bool Levels::holds_cell(const std::array<int, 3>& cell, int level) const {
 std::uint64_t Levels::tied_nodes(const BlockKey& key) const {
   if (key.level == 0) return 0;
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
-  const int dimension = geometry().dimension, edge = block_edge(dimension);
+  const int dimension = geometry().dimension;
   std::uint64_t tied = 0;
   for (int n = 0; n < kBlockNodes; ++n) {
-    std::array<int, 3> node{};
-    for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)
-      node[static_cast<std::size_t>(a)] = key.i[static_cast<std::size_t>(a)] * edge + rest % edge;
+    const std::array<int, 3> node = index_in(key, n, dimension);
     for (int slot = 0; slot < neighbour_count(dimension); ++slot) {
       std::array<int, 3> cell = node;
       for (int a = 0; a < dimension; ++a)

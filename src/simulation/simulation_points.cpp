@@ -41,6 +41,29 @@ int Simulation::coarsest_level(int body) {
   return level;
 }
 
+namespace {
+
+/// The body is all around a seed, three of its own widths in all, as kinematics/mpm/interior.hpp
+/// means it.
+bool inside(const Scene& scene, const BodyOptions& body, const SeedPoint& seed) {
+  constexpr double kWidths = 7 * (1 - 1e-9);  // of half of it, to either side
+  const int dim = dimension(scene.frame);
+  Box around{seed.x, seed.x};
+  for (int a = 0; a < dim; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    around.min[k] -= kWidths * seed.half_width[k];
+    around.max[k] += kWidths * seed.half_width[k];
+    const auto& sides = scene.grid.boundary[k];
+    const bool low = around.min[k]<scene.grid.min[k], high = around.max[k]> scene.grid.max[k];
+    if ((low || high) && a == dim - 1) return false;
+    if ((low && !sides[0].folds()) || (high && !sides[1].folds())) return false;
+  }
+  return body.solid->classify(scene.frame, intersection(around, domain_box(scene), dim)) ==
+         Place::inside;
+}
+
+}  // namespace
+
 double Simulation::place_body(int b) {
   Body& body = *bodies_[static_cast<std::size_t>(b)];
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
@@ -62,7 +85,9 @@ double Simulation::place_body(int b) {
     if (owner.level <= from)
       parts.push_back({owner, b, record});
     else
-      arrive(grid_.levels(), columns, size, from, {owner, b, record}, parts, &seeds[id].half_width);
+      arrive(grid_.levels(), columns, size, from,
+             {owner, b, record, size.stagger && inside(scene_, body.options(), seeds[id])}, parts,
+             &seeds[id].half_width);
     for (const Arrival& part : parts) {
       const auto [at, is_new] = where.try_emplace(part.key, grid_.patches().size());
       if (is_new) grid_.add_patch(part.key, b, columns.stride);
@@ -79,7 +104,7 @@ void Simulation::place_points() {
   std::vector<PointSize> sizes;
   for (const auto& body : bodies_)
     sizes.push_back({body->material().density, body->options().points.per_direction,
-                     scene_.frame == Frame::axisymmetric, 0});
+                     scene_.frame == Frame::axisymmetric, scene_.method.stagger, 0});
   step_->set_sizes(std::move(sizes));
   double smallest = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)

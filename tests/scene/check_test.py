@@ -58,6 +58,28 @@ def elements():
           "their step is that of the text", facts["time_step"])
 
 
+def levels():
+    rule = ["--set", "grid.refine=[{region: {box: {min: [0, 0], max: [1, 8 mm]}}, level: 2}]"]
+    facts, text = object_of(TAYLOR, *rule), krater("check", TAYLOR, *rule).stdout
+    one, told_levels = object_of(TAYLOR), facts["levels"]["list"]
+    check([entry["level"] for entry in told_levels] == [0, 1, 2], "three levels", told_levels)
+    for entry in told_levels:
+        check(f"level {entry['level']}: cell {entry['cell']:.4g} m, {entry['points']:.0f} points in "
+              f"{entry['blocks']:.0f} blocks" in text, f"level {entry['level']} is that of the text", entry)
+        check(abs(entry["cell"] * 2**entry["level"] / facts["cell"] - 1) < 1e-12 and entry["bytes"] > 0, "its cells", entry)
+    points = sum(entry["points"] for entry in told_levels)
+    check(points == facts["bodies"][0]["points"] and abs(sum(e["share_of_time"] for e in told_levels) - 1) < 1e-12,
+          "they have all points and all the time", points)
+    uniform = facts["levels"]["uniform_points"]
+    check(abs(uniform / (16 * one["bodies"][0]["points"]) - 1) < 0.01, "what one level of the finest cells would have", uniform)
+    check(facts["levels"]["saving"] == uniform / points > 1.2, "and the saving", facts["levels"])
+    check("levels" not in one, "nothing of levels without them", sorted(one))
+    check(facts["doubts"] == told(text, "doubt"), "doubts of levels are among the doubts", facts["doubts"])
+    few = object_of(TAYLOR, "--set", "grid.cell=12 um", *rule)
+    check(few["cells_looked_at"] > 1 and abs(few["levels"]["list"][0]["cell"] / 12e-6 - 1) < 1e-9,
+          "cells are those of the scene when longer ones were looked at", few["levels"])
+
+
 def errors():
     done = krater("check", "--json", TAYLOR, "--set", "grid.cel=1 mm")
     check(done.returncode == 2 and done.stdout == "" and "grid.cel" in done.stderr, "an error goes to stderr", done.text)
@@ -69,5 +91,6 @@ with Folder():
     as_the_text()
     step()
     elements()
+    levels()
     errors()
 finish()

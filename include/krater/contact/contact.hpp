@@ -126,6 +126,13 @@ class ContactSet {
     ImpulseHeat heat;                   ///< of the step
     std::vector<RigidPush> rigid_pushes;
     std::vector<ImpulsePair> given;  ///< of the step, if it is noted
+    void begin_step() {
+      contacts.clear();
+      shares.clear();
+      heat.clear();
+      rigid_pushes.clear();
+      given.clear();
+    }
   };
   struct Before {
     double* node;

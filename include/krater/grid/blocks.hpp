@@ -176,7 +176,7 @@ class BlockGrid {
   void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
   int find_patch(const BlockKey& key, int body) const;            ///< -1: none
   int find_node_block(const BlockKey& key, FieldId field) const;  ///< -1: none
-  /// The block of a node, and which it is there.
+  /// The block of a node, or of a cell, and which it is there.
   std::pair<BlockKey, int> place_of_node(const std::array<int, 3>& storage_index,
                                          int level = 0) const;
   /// nullptr: not stored

@@ -32,6 +32,18 @@ constexpr int neighbour_count(int dimension) { return dimension == 3 ? 27 : 9; }
 /// Division that rounds down, for blocks and levels below zero.
 constexpr int floor_div(int i, int by) { return i >= 0 ? i / by : -((by - 1 - i) / by); }
 
+/// Where node n of a block lies among the nodes of its level, which storage coordinates count; the
+/// last axis runs fastest. The same for cells.
+constexpr std::array<int, 3> index_in(const BlockKey& key, int n, int dimension) {
+  const int edge = block_edge(dimension);
+  std::array<int, 3> out{};
+  for (int a = dimension - 1; a >= 0; --a, n /= edge) {
+    const auto k = static_cast<std::size_t>(a);
+    out[k] = key.i[k] * edge + n % edge;
+  }
+  return out;
+}
+
 struct GridGeometry {
   int dimension = 3;
   double h = 1, inv_h = 1;

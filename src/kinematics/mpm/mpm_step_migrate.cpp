@@ -13,7 +13,7 @@ void MpmStep::migrate() {
   }
   if (impulses_.any()) note_put_back();
   const std::vector<int> losing = rigid_losses();
-  const Delivered delivered = deliver(grid_, bodies_, sizes_);
+  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_);
   book_delivered(delivered);
   bool changed = delivered.changed;
   for (const int b : losing)  // what is left moves on as it did
@@ -37,7 +37,7 @@ void MpmStep::regrid(BlockSet refined) {
   for (Patch& patch : grid_.patches())
     if (!grid_.levels().holds(patch.key) || grid_.levels().is_refined(patch.key))
       send_away(patch, grid_.levels(), bodies_[static_cast<std::size_t>(patch.body)].columns);
-  book_delivered(deliver(grid_, bodies_, sizes_));
+  book_delivered(deliver(grid_, boundary_, bodies_, sizes_));
   grid_.rebuild(true);
   relink();
   lap(Phase::migrate);

@@ -20,12 +20,10 @@ bool is_fluid(const BodyKernelData& body) { return body.columns.local_correction
 // A node beyond a plane of symmetry or a sticky one.
 bool is_folded_ghost(const GridGeometry& g, const BoundaryConditions& conditions,
                      const BlockKey& key, int node) {
-  const int edge = block_edge(g.dimension);
-  for (int a = g.dimension - 1, rest = node; a >= 0; --a, rest /= edge) {
-    const auto axis = static_cast<std::size_t>(a);
-    const int index = key.i[axis] * edge + rest % edge;
-    if (index > 0 && index <= g.cells[axis] + 1) continue;
-    if (conditions[axis][index > 0 ? 1 : 0].folds()) return true;
+  const std::array<int, 3> index = index_in(key, node, g.dimension);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(g.dimension); ++a) {
+    if (index[a] > 0 && index[a] <= g.cells[a] + 1) continue;
+    if (conditions[a][index[a] > 0 ? 1 : 0].folds()) return true;
   }
   return false;
 }

@@ -13,16 +13,6 @@ namespace {
 constexpr int kNone = -1, kImage = -2;
 constexpr std::size_t kFew = 64;  ///< nodes that are not worth a second thread
 
-/// Storage index of a node in memory.
-std::array<int, 3> index_in(const NodeBlock& block, std::size_t n, int dimension) {
-  const int edge = block_edge(dimension);
-  std::array<int, 3> index{};
-  for (int a = dimension - 1, rest = static_cast<int>(n % kBlockNodes); a >= 0; --a, rest /= edge)
-    index[static_cast<std::size_t>(a)] =
-        block.key.i[static_cast<std::size_t>(a)] * edge + rest % edge;
-  return index;
-}
-
 }  // namespace
 
 /// Where a block with tied nodes finds others: looked up once for all of them.
@@ -112,15 +102,11 @@ void Ties::add_tied(const NodeBlock& block, int node, const Places& places) {
   const GridGeometry& g = grid_.geometry(block.key.level);
   const int edge = block_edge(g.dimension);
   Tied& tied = tied_.emplace_back();
-  std::array<int, 3> local{};
-  for (int a = g.dimension - 1, rest = node; a >= 0; --a, rest /= edge) {
-    const auto k = static_cast<std::size_t>(a);
-    local[k] = rest % edge;  // blocks have an even number of nodes along each axis
-    if (local[k] % 2 != 0) tied.odd |= 1U << a;
-  }
+  const std::array<int, 3> local = index_in({}, node, g.dimension);
+  for (int a = 0; a < g.dimension; ++a)  // blocks have an even number of nodes along each axis
+    if (local[static_cast<std::size_t>(a)] % 2 != 0) tied.odd |= 1U << a;
   tied.node = static_cast<std::int32_t>(places.own * kBlockNodes + node);
-  if (whole_volume_)
-    tied.whole = whole_volume_(g, index_in(block, static_cast<std::size_t>(node), g.dimension));
+  if (whole_volume_) tied.whole = whole_volume_(g, index_in(block.key, node, g.dimension));
   tied.masters.fill(kNone);
   for (int c = 0; c < corner_count(g.dimension); ++c)
     tied.masters[static_cast<std::size_t>(c)] = places.master(local, c);
@@ -166,8 +152,9 @@ void Ties::link_masters() {
     master.level = block.key.level;
     master.first = first;
     if (whole_volume_)
-      master.whole = whole_volume_(grid_.geometry(block.key.level),
-                                   index_in(block, n, grid_.geometry().dimension));
+      master.whole = whole_volume_(
+          grid_.geometry(block.key.level),
+          index_in(block.key, static_cast<int>(n % kBlockNodes), grid_.geometry().dimension));
     first += count;
     range.end = masters_.size();
   }

@@ -122,7 +122,6 @@ void Ties::apply_changes(Range masters, const MomentumSettings& s) {
 
 /// As the momentum update sums them (kinematics/mpm/nodes.hpp).
 void Ties::sum_block(NodeBlock& block, const MomentumSettings& s) {
-  constexpr double kFilled = 0.01;
   double kinetic = 0, change = 0;
   bool still = true;
   for (int n = 0; n < kBlockNodes; ++n) {
@@ -133,7 +132,7 @@ void Ties::sum_block(NodeBlock& block, const MomentumSettings& s) {
       dv2 += r[moved::change + a] * r[moved::change + a];
     }
     kinetic += 0.5 * r[moved::mass] * v2;
-    if (r[moved::volume] > kFilled * s.cell_volume) change = std::max(change, dv2);
+    if (r[moved::volume] > kFilledNode * s.cell_volume) change = std::max(change, dv2);
     still = still && v2 == 0 && dv2 == 0;
   }
   block.sums = {kinetic, std::sqrt(change)};

@@ -12,19 +12,26 @@ void Ties::link_parents() {
   if (grid_.levels().single()) return;
   const int dimension = grid_.geometry().dimension;
   // Contact looks at blocks that fields share, two nodes around them; and what these are made of.
-  BlockSet shared;
+  KeyIndex shared;
+  shared.clear(grid_.node_blocks().size());
+  const auto add = [&shared](const BlockKey& key) {
+    const bool is_new = shared.find(key, 0) < 0;
+    if (is_new) shared.insert(key, 0, 0);
+    return is_new;
+  };
   for (std::size_t b = 1; b < grid_.node_blocks().size(); ++b)
     if (grid_.node_blocks()[b].key == grid_.node_blocks()[b - 1].key)
-      for (BlockKey key = grid_.node_blocks()[b].key; shared.insert(key).second && key.level > 0;)
+      for (BlockKey key = grid_.node_blocks()[b].key; add(key) && key.level > 0;)
         key = parent_of(key, dimension);
   const auto near_shared = [&](const BlockKey& key) {
     for (int s = 0; s < neighbour_count(dimension); ++s)
-      if (shared.contains(shifted(key, s, dimension))) return true;
+      if (shared.find(shifted(key, s, dimension), 0) >= 0) return true;
     return false;
   };
+  const int finest = grid_.levels().count() - 1;
   for (std::size_t b = grid_.node_blocks().size(); b-- > 0;) {
     const NodeBlock& block = grid_.node_blocks()[b];
-    if (!near_shared(block.key)) continue;
+    if (block.key.level == finest || !near_shared(block.key)) continue;
     Parent parent{b, {}};
     BlockKey centre = block.key;
     centre.level += 1;
@@ -39,34 +46,77 @@ void Ties::link_parents() {
   }
 }
 
-// The children of node J are 2J - 2 .. 2J + 1 with the weights (1 3 3 1)/4. Tied ones are in its
-// sum already.
+namespace {
+
+/// Volumes of the nodes of finer blocks that the nodes of one block draw on: 2 edge + 2 along each
+/// axis, from two before the first child of its first node.
+struct Children {
+  static constexpr int kMost = 10 * 10 * 10;  // 18^2 in 2d
+  explicit Children(int dimension) : side{2 * block_edge(dimension) + 2} {}
+  /// The free nodes of a finer block, which begins `begin` nodes from the first of these.
+  void take(const NodeBlock& from, const std::array<int, 3>& begin, int dimension) {
+    const int edge = block_edge(dimension);
+    for (int n = 0; n < kBlockNodes; ++n) {
+      if ((from.tied >> n & 1U) != 0) continue;  // in the sums of their masters already
+      int at = 0, inside = 1;
+      for (int a = dimension - 1, rest = n, stride = 1; a >= 0; --a, rest /= edge, stride *= side) {
+        const int i = begin[static_cast<std::size_t>(a)] + rest % edge;
+        inside &= static_cast<int>(i >= 0 && i < side);
+        at += i * stride;
+      }
+      if (inside != 0)
+        volume[static_cast<std::size_t>(at)] = from.nodes[kNodeDoubles * n + moved::volume];
+    }
+  }
+  int side;
+  std::array<double, kMost> volume{};
+};
+
+constexpr std::array<double, 4> kShares{0.25, 0.75, 0.75, 0.25};
+
+/// Of the children of one node, the first of which is at `first`, in lexicographic order.
+double sum_plane(const double* first, int side) {
+  double sum = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      sum += kShares[static_cast<std::size_t>(i)] * kShares[static_cast<std::size_t>(j)] *
+             first[side * i + j];
+  return sum;
+}
+
+double sum_space(const double* first, int side) {
+  double sum = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 4; ++k)
+        sum += kShares[static_cast<std::size_t>(i)] * kShares[static_cast<std::size_t>(j)] *
+               kShares[static_cast<std::size_t>(k)] * first[side * (side * i + j) + k];
+  return sum;
+}
+
+}  // namespace
+
+// The children of node J are 2J - 2 .. 2J + 1 with the weights (1 3 3 1)/4.
 void Ties::add_children(const Parent& parent) {
   const int dimension = grid_.geometry().dimension, edge = block_edge(dimension);
   NodeBlock& block = grid_.node_blocks()[parent.block];
-  int count = 1;
-  for (int a = 0; a < dimension; ++a) count *= 4;
+  Children children{dimension};
+  for (int slot = 0; slot < neighbour_count(dimension); ++slot) {
+    const std::int32_t finer = parent.finer[static_cast<std::size_t>(slot)];
+    if (finer < 0) continue;
+    std::array<int, 3> begin{};
+    for (int a = 0; a < dimension; ++a)
+      begin[static_cast<std::size_t>(a)] = slot_offset(slot, a, dimension) * edge + 2;
+    children.take(grid_.node_blocks()[static_cast<std::size_t>(finer)], begin, dimension);
+  }
+  const int side = children.side;
   for (int n = 0; n < kBlockNodes; ++n) {
-    std::array<int, 3> first{};  // child, from the first node of the finer blocks
-    for (int a = dimension - 1, rest = n; a >= 0; --a, rest /= edge)
-      first[static_cast<std::size_t>(a)] = 2 * (rest % edge) - 2 + edge;
-    double sum = 0;
-    for (int c = 0; c < count; ++c) {
-      int slot = 0, local = 0;
-      double w = 1;
-      for (int a = 0, shift = 2 * (dimension - 1); a < dimension; ++a, shift -= 2) {
-        const int k = c >> shift & 3, i = first[static_cast<std::size_t>(a)] + k;
-        w *= k == 0 || k == 3 ? 0.25 : 0.75;
-        slot = 3 * slot + i / edge;
-        local = local * edge + i % edge;
-      }
-      const std::int32_t finer = parent.finer[static_cast<std::size_t>(slot)];
-      if (finer < 0) continue;
-      const NodeBlock& from = grid_.node_blocks()[static_cast<std::size_t>(finer)];
-      if ((from.tied >> local & 1U) == 0)
-        sum += w * from.nodes[kNodeDoubles * local + moved::volume];
-    }
-    block.nodes[kNodeDoubles * n + moved::volume] += sum;
+    int at = 0;
+    for (int a = dimension - 1, rest = n, stride = 1; a >= 0; --a, rest /= edge, stride *= side)
+      at += 2 * (rest % edge) * stride;
+    const double* first = children.volume.data() + at;
+    block.nodes[kNodeDoubles * n + moved::volume] +=
+        dimension == 3 ? sum_space(first, side) : sum_plane(first, side);
   }
 }
 

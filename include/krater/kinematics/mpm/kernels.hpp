@@ -54,6 +54,10 @@ struct SweepSettings {
   std::array<std::array<CutCells, 2>, 3> cut{};  ///< [axis][0 lower, 1 upper]
 };
 
+/// Nodes that hold at least this share of a cell's volume count for the change of velocity that
+/// bounds |L| dt.
+inline constexpr double kFilledNode = 0.01;
+
 struct MomentumSettings {
   double dt_force = 0;        ///< time step, 0: no forces [s]
   double smallest_mass = 0;   ///< nodes up to it feel no force [kg]

@@ -31,8 +31,8 @@ struct Delivered {
 };
 /// Hand the outboxes over; makes and drops patches as needed, and splits what comes among finer
 /// cells, by the sizes of the bodies.
-Delivered deliver(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                  std::vector<PointSize>& sizes);
+Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
+                  const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes);
 
 /// New points of `body`, records of stride/8 doubles, to the blocks of their positions; what lies
 /// beyond an open side is removed at once. Relink afterwards.

@@ -101,7 +101,7 @@ class MpmStep final : public Kinematics {
   /// finer.
   void regrid(BlockSet refined);
   /// After a fault: points under way between blocks go where they belong.
-  void deliver_leavers() { deliver(grid_, bodies_, sizes_); }
+  void deliver_leavers() { deliver(grid_, boundary_, bodies_, sizes_); }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
   void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 

@@ -41,10 +41,6 @@ void sum_block(const BlockGrid& grid, NodeBlock& block) {
   }
 }
 
-/// Nodes that hold at least this share of a cell's volume count for the change of velocity that
-/// bounds |L| dt.
-inline constexpr double kFilledNode = 0.01;
-
 /// Velocities below `flush` become exactly zero: the numerical precursor of a signal runs ahead of
 /// it by the support of the shape functions in every step, at amplitudes without meaning, and would
 /// wake every dormant block.

@@ -12,6 +12,16 @@
 /// what it is. s is that of the point's volume; where the body keeps its deformation F, d is F d_0,
 /// up to half a cell of the level above. Parts stay inside the sides of the domain.
 ///
+/// Stagger. The parts of a staggered lattice (geometry/seeds/lattice.hpp) stand in plain rows: its
+/// odd columns are shifted by s/2, one spacing of the parts. A front along the last axis z meets
+/// rows then. So inside a body (kinematics/mpm/interior.hpp) d_z is s/8 less for the parts of even
+/// columns and s/8 more for the odd ones (of their place in the parent: i, in 3D i + j), and
+/// columns of parts are staggered everywhere; a surface would be as rough, and parts at one stay in
+/// rows.
+/// The skew part of L then takes up what the shift has changed of the angular momentum,
+///   h^2/4 (L_ba - L_ab) + sum w [d_a (L d)_b - d_b (L d)_a]:
+/// it is what it would be without.
+///
 /// Kinetic energy with its affine part (h_l^2/4 per axis, as all sums count it) is one of the
 /// level. Where a point changes it, whole or in parts,
 ///   -dT = m/2 L:L (h_from^2 - h_to^2)/4 - m/2 sum w |L (d - sum w d)|^2
@@ -32,6 +42,7 @@ struct PointSize {
   double density = 0;                         ///< of the undeformed material [kg/m^3]
   std::array<int, 3> per_direction{2, 2, 2};  ///< points in a cell, per grid axis
   bool hoop = false;                          ///< masses are those of the full revolution
+  bool stagger = false;                       ///< of the lattice
   double next_id = 0;                         ///< of the next point that splitting makes
   double mass(const GridGeometry& geometry, double r) const;
 };
@@ -41,7 +52,12 @@ struct Arrival {
   BlockKey key;
   int body = 0;
   std::vector<double> record;
+  bool inside = false;  ///< matter is all around
 };
+
+/// A point that came from cells of the level `from` is too large where it is.
+bool will_split(const Levels& levels, const PointColumns& columns, const PointSize& size, int from,
+                const Arrival& point);
 
 /// Adds the parts of a point that lies in cells of `level` and came from those of `from`, or the
 /// point itself; returns what became heat [J]. `half_width`: of
