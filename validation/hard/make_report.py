@@ -10,6 +10,7 @@ import os
 import pathlib
 import shutil
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
 import expectations  # noqa: E402
@@ -109,7 +110,9 @@ def pictures(study):
 
 def main():
     study = Study(__file__, "inputs/taylor_copper.yaml", ESTIMATED_SECONDS, __doc__)
-    outcomes = [run_of(study, case, name) for case in hard_cases.all_cases() for name in case.runs]
+    jobs = [(case, name) for case in hard_cases.all_cases() for name in case.runs]
+    with ThreadPoolExecutor(study.cores) as pool:
+        outcomes = list(pool.map(lambda job: run_of(study, *job), jobs))
     held = sum(all(j.held for j in one.verdict) for one in outcomes)
     study.add("Each case is a scene in [cases/](cases) that says itself what must hold (`expect:`); `tools/hard NAME` runs and judges "
               "it again. Where a case fails the method is to be mended, not the case: what is not mended stands here as missed.")
