@@ -120,6 +120,8 @@ FIGURES = {
     "energy": lambda r: Figure("e behind shocks of 1 to 6 km/s, worst at 200 cells", f"{worst(r, '^e, 200'):.2f} %"),
     "fronts": lambda r: Figure("W of Taylor copper to 1 %: core time, cheapest setting",
                                r.cell("^w diameter", "^1 %").split(":")[0]),
+    "hard": lambda r: Figure("runs of cases known to be hard that hold all that is asked",
+                             f"{r.cell('^hold all', 'runs')} of {r.cell('^of cases', 'runs')}"),
     "hiermaier_al": lambda r: r.finest("hole (experiment 31.0 mm)", "hole mm", "^40 cells", "^20 cells"),
     "kinematics": lambda r: Figure("plugging, elements at 20 through the plate (measured 241.4 m/s)",
                                    r.cell("^elements, 20 through", "residual velocity") + " m/s"),

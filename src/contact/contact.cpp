@@ -251,14 +251,16 @@ bool ContactSet::keep_in_planes(const BlockKey& key, Contact& contact) const {
 
 /// Normal from the points around the joint.
 void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& columns,
-                        const Group& group, Contact& contact) const {
+                        const Group& group, const Joint& joint, Contact& contact) const {
   const NodeBlock& home = grid.node_blocks()[group.first];
   std::array<double, 3> at{};
-  for (int a = geometry_.dimension - 1, rest = contact.joint; a >= 0; --a, rest /= padded_) {
-    const auto i = static_cast<unsigned>(a);
-    const int index = mirrored(geometry_, a, home.key.i[i] * edge_ + rest % padded_ - kHalo);
-    at[i] = geometry_.min[i] + (index - 1) * geometry_.h;
-  }
+  for (int k = 0; k < joint.count; ++k)
+    for (int a = geometry_.dimension - 1, rest = joint.nodes[static_cast<std::size_t>(k)]; a >= 0;
+         --a, rest /= padded_) {
+      const auto i = static_cast<unsigned>(a);
+      const int index = mirrored(geometry_, a, home.key.i[i] * edge_ + rest % padded_ - kHalo);
+      at[i] += (geometry_.min[i] + (index - 1) * geometry_.h) / joint.count;
+    }
   const auto body = [&](int f) {
     return body_of(grid.node_blocks()[group.first + static_cast<std::size_t>(f)].field);
   };
@@ -292,10 +294,10 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
         const std::array fluid{is_fluid(body_of(block(a).field)),
                                is_fluid(body_of(block(b).field))};
         const int at = place_of(n);
-        Contact contact{n, a, b, at, {}, false, fluid};
+        Contact contact{n, a, b, {}, false, fluid};
         if (!find_contact(scratch, at, contact)) continue;
         if (contact.even && options_.normal == ContactNormal::logistic_regression)
-          refine(grid, columns, group, contact);
+          refine(grid, columns, group, joint_of(scratch, at, contact), contact);
         if (block(a).at_boundary && !keep_in_planes(block(a).key, contact)) continue;
         group.contacts.push_back(contact);
       }

@@ -17,6 +17,7 @@ constexpr double kTouch = 0.05;
 // At 10 the corners of a block on a base still plough: 1.3 % too much friction at 20 cells, 0.4 %
 // at 40; without friction it lost 0.03 % of its speed, and now 0.001 %.
 constexpr double kSteeper = 40;
+constexpr double kSame = 1 - 1e-9;  // fillings that differ by less are the same
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 }  // namespace
@@ -39,17 +40,29 @@ std::array<double, 3> ContactSet::gradient(const double* phi) const {
   return out;
 }
 
-/// Of the nodes around `at` the one that both bodies fill best: there lies the joint.
-int ContactSet::joint_near(const double* phi_a, const double* phi_b, int at) const {
-  int joint = at;
-  const auto weigh = [&](int n) {
-    if (std::min(phi_a[n], phi_b[n]) > std::min(phi_a[joint], phi_b[joint])) joint = n;
-  };
+/// Of the nodes around `at` those that both bodies fill best, and of these the nearest: there lies
+/// the joint. A joint in the middle of its cells, or seen from beyond a rim, has several that are
+/// equal but for round-off; the first of them would make the answer one of the order of nodes.
+ContactSet::Joint ContactSet::joint_near(const double* phi_a, const double* phi_b, int at) const {
   const int depth = geometry_.dimension == 3 ? 1 : 0;
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j)
-      for (int k = -depth; k <= depth; ++k)
-        weigh(at + i * stride_[0] + j * stride_[1] + k * stride_[2]);
+  const auto each = [&](const auto& visit) {
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -depth; k <= depth; ++k) {
+          const int n = at + i * stride_[0] + j * stride_[1] + k * stride_[2];
+          visit(n, std::min(phi_a[n], phi_b[n]), i * i + j * j + k * k);
+        }
+  };
+  double best = 0;
+  each([&](int, double filled, int) { best = std::max(best, filled); });
+  Joint joint{};
+  int nearest = 4;
+  each([&](int n, double filled, int distance) {
+    if (filled < kSame * best || distance > nearest) return;
+    if (distance < nearest) joint.count = 0;
+    nearest = distance;
+    joint.nodes[static_cast<std::size_t>(joint.count++)] = n;
+  });
   return joint;
 }
 
@@ -64,12 +77,28 @@ double ContactSet::gap(const double* phi_a, const double* phi_b) const {
   return widest;
 }
 
+ContactSet::Joint ContactSet::joint_of(const Scratch& scratch, int at,
+                                       const Contact& contact) const {
+  return joint_near(scratch.filling.data() + contact.a * size_,
+                    scratch.filling.data() + contact.b * size_, at);
+}
+
 bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) const {
   const double* phi_a = scratch.filling.data() + contact.a * size_;
   const double* phi_b = scratch.filling.data() + contact.b * size_;
-  const int joint = contact.joint = joint_near(phi_a, phi_b, at);
-  if (gap(phi_a + joint, phi_b + joint) > kTouch) return false;
-  const std::array<double, 3> grad_a = gradient(phi_a + joint), grad_b = gradient(phi_b + joint);
+  const Joint joint = joint_near(phi_a, phi_b, at);
+  double apart = 0;
+  std::array<double, 3> grad_a{}, grad_b{};
+  for (int i = 0; i < joint.count; ++i) {
+    const int n = joint.nodes[static_cast<std::size_t>(i)];
+    apart += gap(phi_a + n, phi_b + n) / joint.count;
+    const std::array<double, 3> a = gradient(phi_a + n), b = gradient(phi_b + n);
+    for (unsigned k = 0; k < 3; ++k) {
+      grad_a[k] += a[k];
+      grad_b[k] += b[k];
+    }
+  }
+  if (apart > kTouch) return false;
   // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
   // that of the plate. Equal ones are averaged.
   const double a2 = square(grad_a.data()), b2 = square(grad_b.data());

@@ -54,9 +54,10 @@ std::vector<SceneDifference> scene_differences(const std::string& before, const 
 
 bool may_differ(const SceneDifference& difference) {
   // Blocks at rest are passed over with the same bits.
-  static constexpr std::array<std::string_view, 8> free{
-      "title",    "time",   "output",     "measures",
-      "outcomes", "gauges", "references", "method.dormant_blocks"};
+  static constexpr std::array<std::string_view, 9> free{
+      "title",      "time",     "output",
+      "measures",   "outcomes", "gauges",
+      "references", "expect",   "method.dormant_blocks"};
   return std::any_of(free.begin(), free.end(), [&difference](std::string_view key) {
     const std::string& path = difference.path;
     return path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.');

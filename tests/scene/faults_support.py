@@ -17,6 +17,7 @@ import scene_support
 from scene_support import Folder, check, failures
 
 INPUTS = pathlib.Path(__file__).resolve().parent / "faults"
+sys.path.insert(0, str(scene_support.ROOT / "tools"))  # expectations
 
 
 @dataclasses.dataclass
@@ -25,7 +26,7 @@ class Fault:
     what: str
     test: callable
     until: str  # the issue that will mend it, or ""
-    long: bool  # run by tools/hard, not by the fast suite
+    long: bool  # run by tools/hard --faults, not by the fast suite
 
 
 register = []

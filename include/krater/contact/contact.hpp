@@ -10,7 +10,8 @@
 ///
 /// Filling. phi_k = sum S V_p / (volume that S covers), 1 where body k fills the node; at closed
 /// sides the covered volume ends at the plane and phi is mirrored.
-/// Joint: of the node and those around it the one with the largest min(phi_A, phi_B); normal and
+/// Joint: of the node and those around it the one with the largest min(phi_A, phi_B), the nearest
+/// of those that are equal, their mean where several are as near: what mirrors, mirrors. Normal and
 /// gap are judged there, for in the tail of a body its gradient means nothing.
 /// Normal: n ~ |grad phi_B|^80 grad phi_B - |grad phi_A|^80 grad phi_A, central differences
 /// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
@@ -96,12 +97,16 @@ class ContactSet {
 
  private:
   struct Contact {
-    int node;   ///< in the block
-    int a, b;   ///< fields of the group
-    int joint;  ///< padded node where the bodies meet
+    int node;  ///< in the block
+    int a, b;  ///< fields of the group
     std::array<double, 3> normal;
     bool even;  ///< both bodies are about as wide at the joint
     std::array<bool, 2> fluid;
+  };
+  /// Padded nodes where two bodies meet, seen from one of them.
+  struct Joint {
+    int count;
+    std::array<int, 12> nodes;  ///< as many are at one distance at most
   };
   /// What one group does to one rigid body: impulses, or what foretells them.
   struct RigidShare {
@@ -172,7 +177,8 @@ class ContactSet {
   void find_contacts(const BlockGrid& grid, const std::vector<PointColumns>& columns, Group& group,
                      Scratch& scratch, const RigidBodies& rigid) const;
   void refine(const BlockGrid& grid, const std::vector<PointColumns>& columns, const Group& group,
-              Contact& contact) const;
+              const Joint& joint, Contact& contact) const;
+  Joint joint_of(const Scratch& scratch, int at, const Contact& contact) const;
   template <class Touch>
   void exchange_node(BlockGrid& grid, Group& group, std::size_t first, std::size_t end,
                      const Touch& touch) const;
@@ -188,7 +194,7 @@ class ContactSet {
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
   std::array<double, 3> gradient(const double* phi) const;
-  int joint_near(const double* phi_a, const double* phi_b, int at) const;
+  Joint joint_near(const double* phi_a, const double* phi_b, int at) const;
   double gap(const double* phi_a, const double* phi_b) const;
   bool find_contact(const Scratch& scratch, int at, Contact& contact) const;
   bool keep_in_planes(const BlockKey& key, Contact& contact) const;

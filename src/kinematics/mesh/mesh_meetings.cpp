@@ -73,17 +73,21 @@ void MeshContact::find_meetings() {
   first_meeting_[places_.size()] = static_cast<std::int32_t>(meetings_.size());
 }
 
-/// Of length 1, without a part across a plane of symmetry that the node lies on.
+/// Of length 1, without a part across a plane of symmetry that the node lies on. A node on a side
+/// that sticks is held, and what lies beyond is an image of points: neither can be pushed.
 bool MeshContact::find_normal(Meeting& m) const {
   Triple& n = m.normal;
   const Index& index = places_[static_cast<std::size_t>(m.node)];
   for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
-    for (std::size_t side = 0; side < 2; ++side)
-      if (conditions_[a][side].kind == BoundaryKind::symmetry &&
-          index[a] == (side == 0 ? 1 : geometry_.cells[a] + 1)) {
-        n[a] = 0;
-        m.held[a] = true;
-      }
+    for (std::size_t side = 0; side < 2; ++side) {
+      const int plane = side == 0 ? 1 : geometry_.cells[a] + 1;
+      const BoundaryKind kind = conditions_[a][side].kind;
+      const bool beyond = side == 0 ? index[a] < plane : index[a] > plane;
+      if (kind == BoundaryKind::sticky && (beyond || index[a] == plane)) return false;
+      if (kind != BoundaryKind::symmetry || index[a] != plane) continue;
+      n[a] = 0;
+      m.held[a] = true;
+    }
   const double length = length_of(n);
   if (!(length > kNoNormal)) return false;
   for (double& component : n) component /= length;

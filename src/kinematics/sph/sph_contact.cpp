@@ -175,7 +175,7 @@ void SphContact::share_blocks() {
     const NodeBlock& block = nodes_.node_blocks()[n];
     if (set_of_body_[static_cast<std::size_t>(body_of(block.field))] != kNone) continue;
     const int there = parts_.grid.find_node_block(block.key, block.field);
-    if (there >= 0) shared_.push_back({n, static_cast<std::size_t>(there), {}});
+    if (there >= 0) shared_.push_back({n, static_cast<std::size_t>(there), {}, {}});
   }
 }
 
@@ -256,6 +256,7 @@ void SphContact::take_pushes() {
         s.impulse[n][a] += to[moved::mass] * dv;
       }
       if (!pushed) continue;
+      s.mass[n] = to[moved::mass];
       std::copy_n(from + moved::velocity, 3, to + moved::velocity);
       std::copy_n(from + moved::change, 3, to + moved::change);
       there.still = there.inert = false;
@@ -340,7 +341,7 @@ EncounterLoss SphContact::loss() const {
       const double* node = parts_.grid.node_blocks()[s.there].nodes + kNodeDoubles * n;
       for (std::size_t a = 0; a < 3; ++a)
         out.taken -= J[a] * (node[moved::velocity + a] - 0.5 * node[moved::change + a]);
-      out.pushed += dot3(J, J) / node[moved::mass];
+      out.pushed += dot3(J, J) / s.mass[n];
     }
   return out;
 }
@@ -365,7 +366,7 @@ Standing SphContact::book() {
     for (std::size_t n = 0; n < kBlockNodes; ++n) {
       if (s.impulse[n] == Triple{}) continue;
       double* node = parts_.grid.node_blocks()[s.there].nodes + kNodeDoubles * n;
-      const double m = node[moved::mass], heat = all.share() * dot3(s.impulse[n], s.impulse[n]) / m;
+      const double m = s.mass[n], heat = all.share() * dot3(s.impulse[n], s.impulse[n]) / m;
       node[moved::work] += heat / m;
       in_points += heat;
     }

@@ -41,7 +41,7 @@ void require_blocks(const Node& tree, Block& root) {
   if (framed) return;
   for (const char* key : {"title", "frame", "grid", "time", "method", "materials", "bodies",
                           "contact", "body_force", "damping", "loads", "detonators", "output",
-                          "measures", "outcomes", "gauges", "references"}) {
+                          "measures", "outcomes", "gauges", "references", "expect"}) {
     root.find(key);
   }
   root.finish();
@@ -71,6 +71,12 @@ void read_blocks(Block& root, Reading& reading) {
   root.record("measures", read_measures(root.find("measures"), reading));
   read_answers(root, reading);
   root.record("references", read_references(root.find("references"), reading));
+  // What must hold of the results is kept beside them; tools/expectations.py judges.
+  if (const Node* expect = root.find_block("expect")) {
+    if (expect->kind != Node::Kind::map)
+      root.fail(*expect, "expected a block of quantities, found " + expect->kind_name());
+    root.record("expect", *expect);
+  }
 }
 
 }  // namespace

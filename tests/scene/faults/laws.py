@@ -69,3 +69,25 @@ def spall_keys():
     krater("run", "limit.yaml", "-o", "limit", "--quiet", "--set", "time.end=2 us", timeout=120)
     rows = history("limit")
     check(summary("limit")["status"] == "done" and rows["pieces"][-1] == 1, "a limit of tension parts nothing")
+
+
+FLUID = """
+frame: 3d
+grid: {cell: 1 mm, box: {min: [-20 mm, -20 mm, -20 mm], max: [20 mm, 20 mm, 20 mm]}}
+time: {end: 1 us}
+materials: {m: {density: 1000, eos: {linear: {K: 2 GPa}}}}
+bodies: {a: {material: m, shape: {box: {min: [-4 mm, -4 mm, -4 mm], max: [4 mm, 4 mm, 4 mm]}}, kinematics: {KINEMATICS}}}
+contact: {friction: 0}
+output: {frames: 0, history: 0}
+"""
+
+
+@fault("fluid-elements", "elements and particles of a fluid at rest in 3d stay at rest: a stress that is not there is zero")
+def fluid_of_elements():
+    """A random scene: six components were read from an array of one, and elements at rest flew to 1e228 m in a step."""
+    for kinematics in ("lagrangian_mesh: {element: 1 mm}", "sph: {}"):
+        pathlib.Path("fluid.yaml").write_text(FLUID.replace("KINEMATICS", kinematics), encoding="utf-8")
+        done = krater("run", "fluid.yaml", "-o", "out", "-j", 1, "--quiet")
+        check(done.returncode == 0, f"{kinematics}: exit code", done.text)
+        rows = history("out")
+        check(np.max(np.abs(rows["kinetic_energy"])) < 1e-20, f"{kinematics}: at rest", np.max(rows["kinetic_energy"]))

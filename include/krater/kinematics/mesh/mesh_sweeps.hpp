@@ -122,7 +122,7 @@ template <class Frame, Holding Kind, ElementReference On>
 void find_forces(const ElementData& d, int first, int last, ElementResult& out) {
   using Shape = typename ShapeOf<Frame, On>::type;
   constexpr int D = Frame::dim;
-  alignas(64) static constexpr double zeros[kLanes] = {};
+  alignas(64) static constexpr double zeros[9 * kLanes] = {};  // of the widest column
   const ElementViews view = views_of(d, zeros);
   for (int g = first; g < last; ++g) {
     Corners<D> at;

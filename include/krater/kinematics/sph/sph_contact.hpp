@@ -69,6 +69,7 @@ class SphContact final : public Encounter {
   struct Shared {
     std::size_t here, there;
     std::array<Triple, kBlockNodes> impulse;  ///< in the step [N s]
+    std::array<double, kBlockNodes> mass;     ///< pushed: before walls join nodes
   };
 
   static bool earlier(const Entry& a, const Entry& b);

@@ -64,7 +64,7 @@ class Sweeps final : public SphKernels {
 /// Records of motion from the columns.
 template <int Dim, SphKernel Kind, SphReference Reference>
 void Sweeps<Dim, Kind, Reference>::place(const SphData& d, bool ends, int first, int last) const {
-  alignas(64) static constexpr double zeros[kLanes] = {};
+  alignas(64) static constexpr double zeros[9 * kLanes] = {};  // of the widest column
   const SphViews view = views_of(d, zeros);
   for (int g = first; g < last; ++g) {
     Pack change[8], r[8];
@@ -144,7 +144,7 @@ KRATER_FORCE_INLINE Mat3<Pack> Sweeps<Dim, Kind, Reference>::on_reference(const 
 template <int Dim, SphKernel Kind, SphReference Reference>
 void Sweeps<Dim, Kind, Reference>::correct(const SphData& d, int first, int last,
                                            SphResult& out) const {
-  alignas(64) static constexpr double zeros[kLanes] = {};
+  alignas(64) static constexpr double zeros[9 * kLanes] = {};  // of the widest column
   const SphViews view = views_of(d, zeros);
   for (int g = first; g < last; ++g) {
     const Own<Dim> own = load_own<Dim>(d, g);
@@ -267,7 +267,7 @@ void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last)
 
 template <int Dim, SphKernel Kind, SphReference Reference>
 void Sweeps<Dim, Kind, Reference>::show_unit(const SphData& d, int first, int last) const {
-  alignas(64) static constexpr double zeros[kLanes] = {};
+  alignas(64) static constexpr double zeros[9 * kLanes] = {};  // of the widest column
   const SphViews view = views_of(d, zeros);
   const Pack one = 1.0, none = 0.0;
   for (int g = first; g < last; ++g) {

@@ -6,7 +6,7 @@
 /// with the work of the deviator and of viscosity; then plastic work, sound speed, failure. A law
 /// whose pressure needs no e has only the work in e. Plastic work is that of the deviator and what
 /// crushing does not give back: both are heat. Rubble that is open (failed, p <= 0, q = 0) has no
-/// stiffness until it closes, at rho0 or above: c^2 = max(c0^2, modulus/rho0) there, not modulus/rho
+/// stiffness until it closes, at rho0 or above: c^2 = max(c0^2, modulus/rho0) there, not by 1/rho
 /// (signal_speed_stage.hpp does the same for G).
 #pragma once
 
