@@ -135,6 +135,8 @@ FIGURES = {
                                      r.found(r"largest error is ([\d.]+ %) in pressure")),
     "reference_configuration": lambda r: r.finest("length on the initial reference, beside current", "length mm",
                                                   "^initial", "^current", "to current"),
+    "snl": lambda r: Figure("depth of seven shots in conventional concrete, HJC, rms error (the shots scatter by 12 %)",
+                            r.cell("^HJC, conventional", "rms %") + " %"),
     "spear_plate": lambda r: r.finest("residual velocity, 3D", "residual velocity", "^full, 12.5", "^full, 6.3"),
     "speed": lambda r: Figure("Taylor 3d, ns per point-step on one core", r.cell("^Taylor 3d, 1 thread", "^step")),
     "spin_and_discs": lambda r: r.finest("energy that two discs keep, change", "total at 3 s", "^default, h/4",

@@ -115,7 +115,7 @@ std::string what_is_not_ready(const Scene& scene) {
 }  // namespace
 
 void read_refine(Block& grid, Reading& reading) {
-  const Node* list = grid.find("refine");
+  const Node* list = grid.find_block("refine");
   if (list == nullptr) return;
   if (list->kind != Node::Kind::list) {
     grid.fail(*list, std::string{"expected "} + kExample);
