@@ -108,8 +108,8 @@ TEST_SUITE("verification") {
     REQUIRE(x.size() > 5000);
     double worst = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-      worst = std::max(
-          {worst, std::abs(u[i] - 2e4 * z[i] * z[i]), std::abs(w[i] - 1e4 * x[i] * x[i])});
+      worst =
+          std::max({worst, std::abs(u[i] - 2e4 * z[i] * z[i]), std::abs(w[i] - 1e4 * x[i] * x[i])});
     CHECK(worst < 1e-13);  // of 12 m/s
   }
 
