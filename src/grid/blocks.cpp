@@ -133,8 +133,8 @@ void BlockGrid::add_shadows(const Add& add) {
 
 void BlockGrid::make_node_blocks() {
   const int dimension = geometry().dimension, corners = corner_count(dimension);
+  node_index_.clear(std::max(node_blocks_.size(), patches_.size()));  // about as many as before
   node_blocks_.clear();
-  node_index_.clear(patches_.size() * static_cast<std::size_t>(corners));
   const auto add = [this](const BlockKey& key, FieldId field) {
     if (node_index_.find(key, tag(field)) >= 0) return false;
     node_index_.insert(key, tag(field), static_cast<int>(node_blocks_.size()));

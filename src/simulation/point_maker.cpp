@@ -38,7 +38,7 @@ void PointMaker::set(int slot, int component, double value) {
   if (slot >= 0) record_[static_cast<std::size_t>(slot + component)] = value;
 }
 
-void PointMaker::place(const SeedPoint& seed, const Triple& velocity) {
+void PointMaker::place(const SeedPoint& seed) {
   const int dim = dimension(scene_.frame);
   for (int a = 0; a < dim; ++a) {
     const auto i = static_cast<std::size_t>(a);
@@ -46,11 +46,33 @@ void PointMaker::place(const SeedPoint& seed, const Triple& velocity) {
     set(slots_.reference, a, seed.x[i]);
     set(slots_.configuration, a, seed.x[i]);
     set(slots_.map, (dim + 1) * a, 1.0);
-    set(slots_.velocity, a, velocity[i]);
-    set(slots_.grid_velocity, a, velocity[i]);
     set(slots_.half_width, a, seed.half_width[i]);
     set(slots_.domain, tensor_axis(scene_.frame, a), seed.half_width[i] * seed.half_width[i]);
   }
+}
+
+void PointMaker::move(const SeedPoint& seed) {
+  const Triple velocity = options_.velocity ? (*options_.velocity)(seed.x, seed.x, 0) : Triple{};
+  if (!std::isfinite(velocity[0] + velocity[1] + velocity[2]))
+    throw InputError(fmt::format("{}.velocity is not finite at ({:.6g}, {:.6g}, {:.6g}) m",
+                                 options_.where, seed.x[0], seed.x[1], seed.x[2]));
+  for (int a = 0; a < dimension(scene_.frame); ++a) {
+    set(slots_.velocity, a, velocity[static_cast<std::size_t>(a)]);
+    set(slots_.grid_velocity, a, velocity[static_cast<std::size_t>(a)]);
+  }
+  if (options_.velocity && slots_.affine >= 0) spin(seed);
+}
+
+void PointMaker::set_motion(std::vector<double>& record, const SeedPoint& whole, double share) {
+  SeedPoint part = whole;
+  for (int a = 0; a < dimension(scene_.frame); ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    part.x[i] = record[static_cast<std::size_t>(slots_.position + a)];
+    part.half_width[i] *= share;
+  }
+  record_.swap(record);
+  move(part);
+  record_.swap(record);
 }
 
 /// The affine part holds part of a spinning body's angular momentum and energy: differences over
@@ -75,12 +97,8 @@ std::vector<double>& PointMaker::make(const SeedPoint& seed, std::size_t id) {
   record_ = blank_;
   set(slots_.id, 0, static_cast<double>(id));
   set(slots_.mass, 0, density_ * seed.measure);
-  const Triple velocity = options_.velocity ? (*options_.velocity)(seed.x, seed.x, 0) : Triple{};
-  if (!std::isfinite(velocity[0] + velocity[1] + velocity[2]))
-    throw InputError(fmt::format("{}.velocity is not finite at ({:.6g}, {:.6g}, {:.6g}) m",
-                                 options_.where, seed.x[0], seed.x[1], seed.x[2]));
-  place(seed, velocity);
-  if (options_.velocity && slots_.affine >= 0) spin(seed);
+  place(seed);
+  move(seed);
   for (std::size_t k = 0; k < loads_.size(); ++k)
     set(slots_.load_share, static_cast<int>(k),
         face_share(scene_, scene_.loads.faces[static_cast<std::size_t>(loads_[k])], options_,

@@ -75,6 +75,7 @@ double Simulation::place_body(int b) {
   std::map<BlockKey, std::size_t> where;
   std::vector<Arrival> parts;
   double smallest = 0;
+  const auto mass_at = static_cast<std::size_t>(columns.mass / kLanes);
   for (std::size_t id = 0; id < seeds.size(); ++id) {
     std::vector<double>& record = maker.make(seeds[id], id);
     if (detonation_.burns(b))
@@ -88,7 +89,12 @@ double Simulation::place_body(int b) {
       arrive(grid_.levels(), columns, size, from,
              {owner, b, record, size.stagger && inside(scene_, body.options(), seeds[id])}, parts,
              &seeds[id].half_width);
-    for (const Arrival& part : parts) {
+    for (Arrival& part : parts) {
+      if (parts.size() > 1) {
+        const double halvings =
+            std::round(std::log2(part.record[mass_at] / record[mass_at]) / geometry_.dimension);
+        maker.set_motion(part.record, seeds[id], std::exp2(halvings));
+      }
       const auto [at, is_new] = where.try_emplace(part.key, grid_.patches().size());
       if (is_new) grid_.add_patch(part.key, b, columns.stride);
       grid_.patches()[at->second].append(part.record.data());

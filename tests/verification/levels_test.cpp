@@ -97,6 +97,22 @@ TEST_SUITE("verification") {
     }
   }
 
+  TEST_CASE("levels: points split at the start have the velocity of their own places") {
+    Run run = start_text(
+        flight(2), {"bodies.block.velocity=[\"2e4*z*z\", \"1e4*x*x\"]",
+                    "bodies.block.shape={box: {min: [14 mm, -1, 4 mm], max: [34 mm, 1, 24 mm]}}"});
+    const std::vector<double> x = column(run, field::Position::info, 0),
+                              z = column(run, field::Position::info, 1),
+                              u = column(run, field::Velocity::info, 0),
+                              w = column(run, field::Velocity::info, 1);
+    REQUIRE(x.size() > 5000);
+    double worst = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      worst =
+          std::max({worst, std::abs(u[i] - 2e4 * z[i] * z[i]), std::abs(w[i] - 1e4 * x[i] * x[i])});
+    CHECK(worst < 1e-13);  // of 12 m/s
+  }
+
   TEST_CASE("levels: failed points see a crowd across an edge, and keep their gradient") {
     // They drop it where more than 0.4 of the mass they see is their own: tied nodes hold none.
     Run run = start_text(

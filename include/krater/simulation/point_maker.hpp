@@ -15,6 +15,8 @@ class PointMaker {
   PointMaker(const Scene& scene, int body, const Body& of);
   /// stride/8 doubles, until the next point. Throws InputError where the velocity is not finite.
   std::vector<double>& make(const SeedPoint& seed, std::size_t id);
+  /// The velocity of the body's field where a part of a point lies, which is `share` as long.
+  void set_motion(std::vector<double>& record, const SeedPoint& whole, double share);
 
  private:
   struct Slots {
@@ -22,7 +24,8 @@ class PointMaker {
         half_width, domain, load_share, deformation;
   };
   void set(int slot, int component, double value);
-  void place(const SeedPoint& seed, const Triple& velocity);
+  void place(const SeedPoint& seed);
+  void move(const SeedPoint& seed);
   void spin(const SeedPoint& seed);
 
   const Scene& scene_;
