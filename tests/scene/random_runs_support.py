@@ -80,7 +80,7 @@ def words_of(said):
     return [line for line in said.splitlines() if "warning:" not in line and line.strip()]
 
 
-def fate_of(seed, folder, timeout=120):
+def fate_of(seed, folder, timeout=600):
     """Checks and runs the scene of a seed in `folder`."""
     begin = time.monotonic()
 

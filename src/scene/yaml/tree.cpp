@@ -44,9 +44,12 @@ bool chooses_another(const Node& base, const Node& over) {
 /// A direction is given one way: the other goes when it comes.
 void drop_other_direction(Node& base, const Node& over) {
   if (base.find("speed") == nullptr) return;
-  for (const auto& [mine, other] : {std::pair{"angle", "towards"}, std::pair{"towards", "angle"}})
+  const auto drop = [&](const char* mine, const char* other) {
     if (over.find(mine))
-      std::erase_if(base.items, [&](const Node& item) { return item.key == other; });
+      std::erase_if(base.items, [other](const Node& item) { return item.key == other; });
+  };
+  drop("angle", "towards");
+  drop("towards", "angle");
 }
 
 void set_path(Node& node, const std::string& path) {
