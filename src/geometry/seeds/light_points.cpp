@@ -52,7 +52,7 @@ class Neighbourhood {
  public:
   Neighbourhood(const std::vector<SeedPoint>& points, const std::vector<std::size_t>& light,
                 double reach)
-      : points_{points}, reach_{reach} {
+      : reach_{reach} {
     for (const std::size_t n : light) {
       for_bins(points[n], [&](std::uint64_t key) { bins_.try_emplace(key); });
     }
@@ -96,7 +96,6 @@ class Neighbourhood {
     }
   }
 
-  const std::vector<SeedPoint>& points_;
   double reach_;
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> bins_;
 };
