@@ -111,7 +111,7 @@ Node read_body(const Node& node, Reading& reading) {
     block.record("shape", read.resolved);
   }
   body.velocity = read_motion(block, body.solid.get(), reading);
-  if (const Node* rigid = block.find("rigid"))
+  if (const Node* rigid = block.find_block("rigid"))
     block.record("rigid", read_rigid(*rigid, body, reading));
   if (const Node* kinematics = block.find("kinematics"))
     block.record("kinematics", read_kinematics(*kinematics, body, reading));

@@ -254,6 +254,19 @@ TEST_SUITE("unit") {
     CHECK(message_of(file, {"grid.cell="}).find("has no value") != std::string::npos);
   }
 
+  TEST_CASE("scene: none takes levels and rigidity away again") {
+    const std::string file = source_path("inputs/snl/penetration.yaml");
+    const Scene as_it_is = read_scene(file);
+    CHECK(as_it_is.grid.refine.size() == 1);
+    CHECK(as_it_is.bodies[0].rigid());
+    const Scene without =
+        read_scene(file, {"grid.refine=none", "bodies.projectile.rigid=none",
+                          "materials.steel={youngs_modulus: 200 GPa, poisson_ratio: 0.3, strength: "
+                          "elastic, eos: linear}"});
+    CHECK(without.grid.refine.empty());
+    CHECK_FALSE(without.bodies[0].rigid());
+  }
+
   TEST_CASE("scene: cards, and keys laid over them") {
     const ScratchFolder folder;
     folder.write("materials/mild.yaml",
