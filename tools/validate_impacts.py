@@ -74,7 +74,7 @@ def shapes(study, rows, times, target, scale, box=None, title="", pixels=700):
             draw_section(axes, run_shapes, run_shapes.bodies(number), colouring, 1e-3, whole, pixels)
             axes.set_xlim(whole[0], whole[1])
             axes.set_ylim(whole[2], whole[3])
-            axes.set_title(f"{name}, {1e6 * run_shapes.time(number):.3g} µs", fontsize=10)
+            axes.set_title(f"{name}, {1e6 * run_shapes.time(number):.4g} µs", fontsize=10)
         line[0].set_ylabel("z [mm]")
     for axes in grid[-1]:
         axes.set_xlabel("r [mm]" if run_shapes.frame == "axisymmetric" else "x [mm]")
@@ -96,7 +96,7 @@ def outside(study, runs, time, target, scale, title="", **view):
         colouring = scale(run_shapes)
         number = nearest(run_shapes, time)
         view_from_outside(axes, run_shapes.bodies(number), colouring, 1e-3, **view)
-        axes.set_title(f"{name}, {1e6 * run_shapes.time(number):.3g} µs")
+        axes.set_title(f"{name}, {1e6 * run_shapes.time(number):.4g} µs")
     colouring.bar(figure, ax=line, fraction=0.03)
     figure.suptitle(title)
     figure.savefig(os.path.join(study.folder, target), dpi=110)
