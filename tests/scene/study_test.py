@@ -222,6 +222,9 @@ def queue():
     check(done.returncode == 0 and answer("queued")["answer"]["measures"]["velocity"]["uncertainty"] > 0, "then all",
           done.text)
     check(study("queued", "", "--list").stdout == "", "and nothing is left to list")
+    done = study("side", "study: sweep\nscene: plate.yaml\ndesign: list\nvary: {time.end: [1 us, 2 us, 3 us], "
+                 "time.cfl: [0.5, 0.5, 0.6]}\nmeasures: [velocity]\n", "--list")
+    check(done.returncode == 0 and len(done.stdout.splitlines()) == 3, "values side by side may be there twice", done.text)
 
 
 def bad_input():
@@ -245,6 +248,8 @@ def bad_input():
             ("a truth of another unit", base + "truth: {velocity: {value: 1 mm}}\n", "bad.yaml:5: .*mm"),
             ("a plain list for the cube", "study: sweep\nscene: plate.yaml\ndesign: latin_hypercube\n"
              "vary: {time.end: [1 us, 2 us, 3 us]}\n", r"bad.yaml:4: .*\[low, high\]"),
+            ("one member of a list twice", "study: sweep\nscene: plate.yaml\ndesign: list\nvary: {time.end: [1 us, 2 us, 1 us], "
+             "time.cfl: [0.5, 0.5, 0.5]}\n", "bad.yaml:4: vary: a member is there twice"),
             ("three constants", "study: calibrate\nscene: plate.yaml\nvary: {a: [1, 2], b: [1, 2], c: [1, 2]}\n"
              "truth: {velocity: {value: 1 m/s}}\n", "bad.yaml:3: vary: one or two"),
             ("shifts that the sides forbid", base + "repeats: 3\n", "bad.yaml:5: repeats: .*leave repeats out"),

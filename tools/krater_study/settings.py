@@ -13,17 +13,18 @@ from study_file import Block, flow
 MOST = 10000  # members of a grid
 
 
-def axes_of(study, key="vary"):
-    """{path: [texts]}: every value as it was written."""
+def axes_of(study, key="vary", crossed=True):
+    """{path: [texts]}: every value as it was written. `crossed`: each with each; else side by side."""
     axes = {}
     for path, values in study.block(key, required=True).items():
         if not isinstance(values, list) or not values:
             study.fail(f"{key}/{path}", "a list of values is expected")
         axes[path] = [flow(value) for value in values]
-        if len(set(axes[path])) < len(values):
+        if crossed and len(set(axes[path])) < len(values):
             study.fail(f"{key}/{path}", "a value is there twice; take one away")
     study.check_paths(key, axes)
-    count = int(np.prod([len(values) for values in axes.values()], dtype=float))
+    lengths = [len(values) for values in axes.values()]
+    count = int(np.prod(lengths, dtype=float)) if crossed else max(lengths)
     if count > MOST:
         study.fail(key, f"{count} members; at most {MOST} in one study: take values away, or use design: "
                    f"latin_hypercube")
@@ -195,10 +196,13 @@ class Sweep:
         for key in ("members", "seed"):
             if key in study.keys:
                 study.fail(key, "only design: latin_hypercube draws members")
-        axes = axes_of(study)
+        axes = axes_of(study, crossed=self.design == "grid")
         lengths = {len(values) for values in axes.values()}
         if self.design == "list" and len(lengths) > 1:
             study.fail("vary", "of a list, all paths have as many values: they go side by side")
+        lines = list(zip(*axes.values()))
+        if self.design == "list" and len(set(lines)) < len(lines):
+            study.fail("vary", "a member is there twice: every path has the same value in both; take one away")
         self.members = product(axes) if self.design == "grid" else [
             member(dict(zip(axes, values))) for values in zip(*axes.values())]
 
