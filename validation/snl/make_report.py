@@ -122,9 +122,7 @@ def flight(run):
         rows = list(csv.reader(file))
     names = [title.partition(" [")[0] for title in rows[0]]
     values = np.array([[float(v) for v in row] for row in rows[1:]])
-    column = next(k for k, n in enumerate(names) if "filtered" in n or "cfc" in n) if any(
-        "filtered" in n or "cfc" in n for n in names) else len(names) - 1
-    return values[:, names.index("time")], values[:, column]
+    return values[:, names.index("time")], values[:, names.index("velocity_filtered")]
 
 
 def deceleration(run):
@@ -134,14 +132,15 @@ def deceleration(run):
 
 
 def graded(run):
-    """Peak g, slope of what follows g/ms, end ms: from 80 to 20 % of the peak's fall a straight line."""
+    """Peak g, slope g/ms of a straight line from 0.9 to 0.3 of it (None where it does not fall so far), end ms."""
     t, a = deceleration(run)
     top = int(np.argmax(a))
-    after = a[top:]
-    falling = (after < 0.9 * a[top]) & (np.arange(len(after)) < np.argmax(after < 0.3 * a[top]) if np.any(
-        after < 0.3 * a[top]) else True)
-    slope = np.polyfit(1e3 * t[top:][falling], after[falling], 1)[0] if np.count_nonzero(falling) > 5 else np.nan
-    return a[top], slope, 1e3 * t[-1]
+    t_after, after = 1e3 * t[top:], a[top:]
+    low = np.flatnonzero(after < 0.3 * a[top])
+    fall = slice(None, low[0] if len(low) else None)
+    falling = after[fall] < 0.9 * a[top]
+    enough = np.count_nonzero(falling) > 5
+    return a[top], np.polyfit(t_after[fall][falling], after[fall][falling], 1)[0] if enough else None, t_after[-1]
 
 
 def fifteen(study, tests, runs):
@@ -189,7 +188,7 @@ def resolution(study, tests, runs):
             peak, slope, end = graded(last)
             rows.append([f"{name} ({tests[name].concrete}, {tests[name].measured:.3f} m)", law] +
                         [f"{depth(r):.3f}" if r else "-" for r in found.values()] +
-                        [per_cent(depth(last), tests[name].measured), f"{peak:.0f}", f"{slope:.0f}", f"{end:.1f}",
+                        [per_cent(depth(last), tests[name].measured), f"{peak:.0f}", "-" if slope is None else f"{slope:.0f}", f"{end:.1f}",
                          f"{last.error:.1f}", f"{last.summary['machine']['processor_seconds']:.0f}", last.summary["steps"]])
     study.add("## All laws, three shots, cells", "Depth in m with 3, 6 and 12 cells in the radius; then of the finest run: error, peak "
               "of the deceleration (filter CFC 1000: 1650 Hz), slope of its fall from 0.9 to 0.3 of the peak, end of the run (rest, or "
