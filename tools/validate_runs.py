@@ -238,7 +238,7 @@ class Study:
 
     def write(self, title):
         program = subprocess.run([self.krater, "--version"], capture_output=True, text=True,
-                                 check=False).stdout.strip().replace("\n", ", ")
+                                 check=False).stdout.partition("\n")[0]
         text = [f"# {title}", "", f"{datetime.date.today()}, {program}, {machine()}, load average "
                 f"{os.getloadavg()[2]:.0f} (wall times are those of such a machine). Made by `tools/validate "
                 f"{self.name}`; do not edit.", ""] + self.lines

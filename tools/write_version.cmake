@@ -17,6 +17,7 @@ set(content "// Written by tools/write_version.cmake at build time.
 #define KRATER_VERSION \"${VERSION}\"
 #define KRATER_GIT_REVISION \"${revision}\"
 #define KRATER_COMPILER \"${COMPILER}\"
+#define KRATER_BUILD_OPTIONS \"${OPTIONS}\"
 #define KRATER_BUILD_TYPE \"${BUILD_TYPE}\"
 ")
 if(EXISTS ${HEADER})

@@ -14,7 +14,9 @@
 #include "krater/app/study.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
+#include "krater/core/isa_level.hpp"
 #include "krater/output/results.hpp"
+#include "krater/scene/schema.hpp"
 
 namespace krater {
 
@@ -31,7 +33,7 @@ void add_scene_options(CLI::App* command, RunOptions& options) {
 
 /// Subcommands of the command line.
 struct Commands {
-  const CLI::App &run, &check, &point, &study;
+  const CLI::App &run, &check, &point, &study, &schema;
 };
 
 /// `krater run --accuracy`: the same run at several cells.
@@ -65,6 +67,8 @@ int dispatch(const Commands& commands, const RunOptions& options, const std::str
       print_check(options);
     else if (commands.point.parsed())
       run_point(options);
+    else if (commands.schema.parsed())
+      fmt::print("{}", schema_text(options.scene == "point"));
     else
       print_models(model.empty() ? nullptr : model.c_str());
     if (std::fflush(stdout) == 0) return kDone;
@@ -110,8 +114,10 @@ int command_line(int argc, char** argv) {
   CLI::App app{"Krater: impact by the Material Point Method"};
   app.name("krater");
   const Version v = version();
-  app.set_version_flag("--version", fmt::format("krater {} ({}, {}, {})", v.program, v.revision,
-                                                v.compiler, v.build));
+  app.set_version_flag("--version", [v] {
+    return fmt::format("krater {} ({}, {}, {})\nbuilt with: {}\nruns with: {}", v.program,
+                       v.revision, v.compiler, v.build, v.options, name_of(best_isa_level()));
+  });
   app.require_subcommand(1);
   RunOptions options;
   std::string model;
@@ -144,6 +150,10 @@ int command_line(int argc, char** argv) {
   CLI::App* models_command =
       app.add_subcommand("models", "list the material laws and cards, or describe one");
   models_command->add_option("name", model, "law");
+  CLI::App* schema_command =
+      app.add_subcommand("schema", "print the JSON schema of scenes, for editors that know YAML");
+  schema_command->add_option("of", options.scene, "scene (the default), or point: loading paths")
+      ->check(CLI::IsMember({"scene", "point"}));
   CLI::App* study_command = app.add_subcommand(
       "study", "many runs of one scene: accuracy, settings, effects, limits, calibration");
   study_command->set_help_flag();  // the package's own
@@ -153,8 +163,12 @@ int command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kDone : kBadInput;
+  } catch (const InputError& e) {  // --version under an unknown $KRATER_ISA
+    say(e.what());
+    return kBadInput;
   }
-  return dispatch({*run_command, *check_command, *point_command, *study_command}, options, model);
+  return dispatch({*run_command, *check_command, *point_command, *study_command, *schema_command},
+                  options, model);
 }
 
 }  // namespace krater

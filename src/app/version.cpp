@@ -6,7 +6,8 @@
 namespace krater {
 
 Version version() {
-  return {KRATER_VERSION, KRATER_GIT_REVISION, KRATER_COMPILER, KRATER_BUILD_TYPE};
+  return {KRATER_VERSION, KRATER_GIT_REVISION, KRATER_COMPILER, KRATER_BUILD_TYPE,
+          KRATER_BUILD_OPTIONS};
 }
 
 }  // namespace krater

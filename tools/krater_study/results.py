@@ -42,7 +42,7 @@ def machine():
 
 def version():
     done = subprocess.run([KRATER, "--version"], capture_output=True, text=True, check=False)
-    return done.stdout.strip()
+    return done.stdout.partition("\n")[0].strip()
 
 
 def columns(rows, measures):

@@ -7,6 +7,7 @@ namespace krater {
 
 struct Version {
   std::string program, revision, compiler, build;
+  std::string options;  ///< what it was built with: levels, optimisation, libraries
 };
 Version version();
 

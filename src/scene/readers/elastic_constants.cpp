@@ -7,21 +7,14 @@
 
 namespace krater::scene {
 
-namespace {
-
-constexpr ParameterInfo kShear{"shear_modulus", "Pa", Range::positive, kRequired, "G", "G"};
-constexpr ParameterInfo kBulk{"bulk_modulus", "Pa", Range::positive, kRequired, "K", "K"};
-constexpr ParameterInfo kYoung{"youngs_modulus", "Pa", Range::positive, kRequired, "E", "E"};
-constexpr ParameterInfo kPoisson{"poisson_ratio", "1", Range::any, kRequired, "nu", "nu"};
-
-}  // namespace
+namespace {}  // namespace
 
 ElasticConstants read_elastic_constants(Block& material) {
   const std::size_t before = material.problems().size();
-  const std::optional<double> G = material.optional_number(kShear);
-  const std::optional<double> K = material.optional_number(kBulk);
-  const std::optional<double> E = material.optional_number(kYoung);
-  const std::optional<double> nu = material.optional_number(kPoisson);
+  const std::optional<double> G = material.optional_number("shear_modulus");
+  const std::optional<double> K = material.optional_number("bulk_modulus");
+  const std::optional<double> E = material.optional_number("youngs_modulus");
+  const std::optional<double> nu = material.optional_number("poisson_ratio");
   const int given = (G ? 1 : 0) + (K ? 1 : 0) + (E ? 1 : 0) + (nu ? 1 : 0);
   ElasticConstants result;
   result.shear = G.value_or(0.0);

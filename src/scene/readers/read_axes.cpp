@@ -57,8 +57,7 @@ void read_bounds(Block& block, std::array<std::array<double, 2>, 3>& region, Rea
     if (axis < 0) continue;
     for (int side = 0; side < 2; ++side) {
       const std::string key = name + std::string{kSides[static_cast<std::size_t>(side)]};
-      const ParameterInfo bound{key.c_str(), "m", Range::any, kRequired, "bound of the region"};
-      const std::optional<double> value = block.optional_number(bound);
+      const std::optional<double> value = block.optional_number(key.c_str());
       if (!value) continue;
       auto& bounds = region[static_cast<std::size_t>(axis)];
       double& mine = bounds[static_cast<std::size_t>(side)];

@@ -23,9 +23,6 @@ int read_material_name(Block& block, Reading& reading) {
   return -1;
 }
 
-constexpr ParameterInfo kJitter{"jitter", "1", Range::fraction, 0,
-                                "greatest random shift of a point, in point spacings"};
-
 /// One number, or one per axis: [r or x, z] or [x, y, z].
 std::array<int, 3> read_per_direction(Block& block, int fallback, int most, Reading& reading) {
   std::array<int, 3> out{fallback, fallback, fallback};
@@ -64,27 +61,24 @@ std::array<int, 3> read_per_direction(Block& block, int fallback, int most, Read
 constexpr int kMostPerDirection = 8;
 
 RefinedZone read_zone(const Node& node, Reading& reading) {
-  Block block{&node, node.path, node, reading.problems};
+  Block block{zone_block(), &node, node.path, node, reading.problems};
   RefinedZone zone;
   if (const std::optional<Box> box = read_corners(block, reading)) zone.box = *box;
   zone.points_per_direction = read_per_direction(block, 4, kMostPerDirection, reading);
-  zone.falloff = block.integer("falloff", 1, 1000, 2);
+  zone.falloff = block.integer("falloff", 2);
   block.finish();
   return zone;
 }
 
 Node read_points(const Node* node, Block& body, PointOptions& points, Reading& reading) {
   const MethodOptions& method = reading.scene.method;
-  Block block{node, node ? node->path : body.place().path + ".points", body.place(),
+  Block block{points_block(), node, node ? node->path : body.place().path + ".points", body.place(),
               reading.problems};
   points.per_direction =
       read_per_direction(block, method.points_per_direction, kMostPerDirection, reading);
   points.fit_to_body = block.choice<bool>("lattice", {{"grid", false}, {"body", true}}, false);
-  ParameterInfo jitter = kJitter;
-  jitter.fallback = method.jitter;
-  points.jitter = block.number(jitter);
-  points.seed =
-      static_cast<unsigned>(block.integer("seed", 0, 1'000'000'000, static_cast<int>(method.seed)));
+  points.jitter = block.number("jitter", method.jitter);
+  points.seed = static_cast<unsigned>(block.integer("seed", static_cast<int>(method.seed)));
   if (const Node* zones = block.find("zones")) {
     if (zones->kind != Node::Kind::list) {
       block.fail(*zones, "expected a list of zones, found " + zones->kind_name());
@@ -101,7 +95,7 @@ Node read_points(const Node* node, Block& body, PointOptions& points, Reading& r
 Node read_body(const Node& node, Reading& reading) {
   BodyOptions body;
   body.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{body_block(), &node, node.path, node, reading.problems};
   body.where = block.place().where();
   body.material = read_material_name(block, reading);
   if (const Node* shape =

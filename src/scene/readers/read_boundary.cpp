@@ -8,7 +8,7 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kFriction{"friction", "1", Range::non_negative, 0, "Coulomb coefficient"};
+constexpr const char* kFriction = "friction";
 
 struct GivenBoundary {
   Boundary boundary;
@@ -37,9 +37,10 @@ void read_driven(const Node& node, const Choice& choice, Reading& reading, Bound
   boundary.friction = kSticks;
   const Node* velocity = choice.value;
   if (velocity && velocity->kind == Node::Kind::map && !velocity->find("speed")) {
-    Block block{choice.value, node.path + "." + choice.name, node, reading.problems};
+    Block block{driven_side_block(), choice.value, node.path + "." + choice.name, node,
+                reading.problems};
     velocity = block.find("of");
-    if (block.find(kFriction.key)) boundary.friction = block.number(kFriction);
+    if (block.find(kFriction)) boundary.friction = block.number(kFriction);
     block.finish();
   }
   if (!velocity)
@@ -79,7 +80,8 @@ GivenBoundary read_side(const Node& node, Reading& reading) {
   } else if (kind->kind == BoundaryKind::velocity) {
     read_driven(node, *choice, reading, side.boundary);
   } else if (choice->value) {
-    Block block{choice->value, node.path + "." + choice->name, node, reading.problems};
+    Block block{member(side_block(), choice->name), choice->value, node.path + "." + choice->name,
+                node, reading.problems};
     if (kind->kind == BoundaryKind::wall) side.boundary.friction = block.number(kFriction);
     block.finish();
   }
@@ -230,7 +232,7 @@ Node side_node(const Boundary& boundary, bool is_axis, Frame frame) {
       return string_node("sticky");
     case BoundaryKind::wall: {
       Node options;
-      add_member(options, kFriction.key, number_node(boundary.friction));
+      add_member(options, kFriction, number_node(boundary.friction));
       add_member(node, "wall", options);
       return node;
     }
@@ -239,7 +241,7 @@ Node side_node(const Boundary& boundary, bool is_axis, Frame frame) {
       if (boundary.friction < kSticks) {
         Node options;
         add_member(options, "of", velocity);
-        add_member(options, kFriction.key, number_node(boundary.friction));
+        add_member(options, kFriction, number_node(boundary.friction));
         velocity = options;
       }
       add_member(node, "velocity", velocity);
@@ -253,7 +255,7 @@ Node side_node(const Boundary& boundary, bool is_axis, Frame frame) {
 
 Node read_boundary(const Node* node, const BoxInfo& box, Block& grid, Reading& reading) {
   const Frame frame = reading.scene.frame;
-  Block block{node, "grid.boundary", grid.place(), reading.problems};
+  Block block{boundary_block(), node, "grid.boundary", grid.place(), reading.problems};
   Sides sides{box, block, reading};
   dimension(frame) == 2 ? sides.read_2d() : sides.read_3d();
   block.finish();

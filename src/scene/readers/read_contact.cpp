@@ -7,17 +7,12 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kFriction{"friction", "1", Range::non_negative, 0,
-                                  "Coulomb coefficient of all pairs"};
-constexpr ParameterInfo kPairFriction{"friction", "1", Range::non_negative, kRequired,
-                                      "Coulomb coefficient of this pair"};
-
 /// `{between: [a, b], friction: 0.1}`.
 Node read_pair(const Node& item, Reading& reading) {
   ContactOptions& contact = reading.scene.contact;
-  Block block{&item, item.path, item, reading.problems};
+  Block block{contact_pair_block(), &item, item.path, item, reading.problems};
   const Node* between = block.require("between", "two bodies, for example [projectile, plate]");
-  const double friction = block.number(kPairFriction);
+  const double friction = block.number("friction");
   if (between && (between->kind != Node::Kind::list || between->items.size() != 2)) {
     block.fail(*between, "expected two bodies, for example [projectile, plate]");
   } else if (between) {
@@ -42,7 +37,7 @@ Node read_pair(const Node& item, Reading& reading) {
 
 Node read_contact(const Node& node, Reading& reading) {
   ContactOptions& contact = reading.scene.contact;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{contact_block(), &node, node.path, node, reading.problems};
   contact.active = true;
   contact.where = block.place().where();
   contact.fields = static_cast<int>(reading.scene.bodies.size());
@@ -51,7 +46,7 @@ Node read_contact(const Node& node, Reading& reading) {
                                   {{"volume_gradient", ContactNormal::volume_gradient},
                                    {"logistic_regression", ContactNormal::logistic_regression}},
                                   contact.normal);
-  const double friction = block.number(kFriction);
+  const double friction = block.number("friction");
   contact.friction.assign(static_cast<std::size_t>(contact.fields * contact.fields), friction);
   std::vector<Node> pairs;
   if (const Node* list = block.find("pairs")) {

@@ -7,8 +7,6 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kTime{"time", "s", Range::any, 0.0, "when it lights"};
-
 /// `line: [[0, 0], [0, 20 mm]]`.
 void read_line(const Node& node, Detonator& detonator, Block& block, Reading& reading) {
   detonator.kind = Detonator::Kind::line;
@@ -25,7 +23,7 @@ void read_line(const Node& node, Detonator& detonator, Block& block, Reading& re
 /// `plane: {through: [0, 0], normal: [0, 1]}`.
 void read_plane(const Node& node, Detonator& detonator, Block& parent, Reading& reading) {
   detonator.kind = Detonator::Kind::plane;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{detonator_plane_block(), &node, node.path, node, reading.problems};
   const Node *through = block.require("through", "a point of the plane"),
              *normal = block.require("normal", "for example [0, 1]");
   if (through && normal) {
@@ -46,7 +44,7 @@ void read_plane(const Node& node, Detonator& detonator, Block& parent, Reading& 
 Node read_detonator(const Node& node, Reading& reading) {
   Detonator detonator;
   detonator.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{detonator_block(), &node, node.path, node, reading.problems};
   detonator.where = block.place().where();
   const Node *point = block.find("point"), *line = block.find("line"), *plane = block.find("plane");
   if ((point ? 1 : 0) + (line ? 1 : 0) + (plane ? 1 : 0) != 1)
@@ -60,7 +58,7 @@ Node read_detonator(const Node& node, Reading& reading) {
   } else {
     read_plane(*plane, detonator, block, reading);
   }
-  detonator.time = block.number(kTime);
+  detonator.time = block.number("time");
   if (detonator.time < 0) block.fail("a detonator lights at the start, time: 0, or later");
   Node resolved = block.finish();
   reading.scene.detonators.push_back(std::move(detonator));

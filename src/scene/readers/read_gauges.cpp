@@ -20,7 +20,7 @@ void read_places(Block& block, GaugeOptions& gauge, Reading& reading) {
     block.record("at", *at);
     return;
   }
-  const int count = block.integer("count", 2, 1000, 2);
+  const int count = block.integer("count", 2);
   const auto first = read_place(*from, reading), last = read_place(*to, reading);
   block.record("from", *from);
   block.record("to", *to);
@@ -124,7 +124,7 @@ void read_points(Block& block, GaugeOptions& gauge, Reading& reading) {
 Node read_gauge(const Node& node, Reading& reading) {
   GaugeOptions gauge;
   gauge.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{gauge_block(), &node, node.path, node, reading.problems};
   gauge.where = block.place().where();
   if (const Node* measures = block.find("measures")) {
     read_measured(*measures, gauge, reading);
@@ -132,8 +132,7 @@ Node read_gauge(const Node& node, Reading& reading) {
   } else {
     read_points(block, gauge, reading);
   }
-  gauge.every = block.number(
-      {"every", "s", Range::positive, reading.scene.time.end / kSamples, "time between samples"});
+  gauge.every = block.number("every", reading.scene.time.end / kSamples);
   if (const Node* filter = block.find("filter")) {
     read_filter(*filter, gauge, reading);
     block.record("filter", *filter);

@@ -10,8 +10,6 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kCell{"cell", "m", Range::positive, kRequired, "spacing of the nodes"};
-
 /// Of a side that carries a condition, in cells: what rounding of decimal input leaves.
 constexpr double kOnNodeLine = 1e-6;
 /// Blocks are addressed by 32-bit numbers in all directions together.
@@ -45,7 +43,7 @@ GivenBox read_box(Block& grid, Reading& reading) {
   const Frame frame = reading.scene.frame;
   box.node = grid.require("box", "{min: [r or x, z], max: [r or x, z]}");
   if (!box.node) return box;
-  Block block{box.node, box.node->path, grid.place(), reading.problems};
+  Block block{box_block(), box.node, box.node->path, grid.place(), reading.problems};
   const Node* min = block.require("min");
   const Node* max = block.require("max");
   if (min) box.min = read_corner(*min, reading);
@@ -136,10 +134,10 @@ void place_box(const GivenBox& box, Block& block, Reading& reading) {
 }  // namespace
 
 Node read_grid(const Node* node, Reading& reading) {
-  Block block{node, "grid", reading.root, reading.problems};
+  Block block{grid_block(), node, "grid", reading.root, reading.problems};
   GridOptions& grid = reading.scene.grid;
   const Frame frame = reading.scene.frame;
-  grid.cell = block.number(kCell);
+  grid.cell = block.number("cell");
   grid.where = (block.find("cell") ? *block.find("cell") : block.place()).where();
   const GivenBox box = read_box(block, reading);
   const BoxInfo info{box.min.empty() ? 0.0 : box.min[0], box.revolve, !box.min.empty()};

@@ -25,11 +25,9 @@ void read_hourglass(Block& mesh, HourglassOptions& out, Reading& reading) {
                                  Kind::assumed_strain);
     return;
   }
-  Block block{node, node->path, *node, reading.problems};
-  const auto viscous = block.optional_number(
-      {"viscous", "1", Range::positive, 0.1, "coefficient of the viscous hourglass"});
-  const auto stiffness = block.optional_number(
-      {"stiffness", "1", Range::positive, 0.05, "coefficient of the stiffness of the hourglass"});
+  Block block{hourglass_block(), node, node->path, *node, reading.problems};
+  const auto viscous = block.optional_number("viscous");
+  const auto stiffness = block.optional_number("stiffness");
   if (viscous.has_value() == stiffness.has_value())
     block.fail(*node,
                "expected assumed_strain, stiffness, viscous, {stiffness: 0.05} or {viscous: 0.1}");
@@ -45,22 +43,19 @@ void read_erosion(Block& mesh, MeshOptions& options, Reading& reading) {
   const Node* node = mesh.find("failure");
   if (node == nullptr) return;
   ErosionOptions& out = options.erosion;
-  Block block{node, node->path, *node, reading.problems};
+  Block block{element_failure_block(), node, node->path, *node, reading.problems};
   options.converts = block.choice<bool>("action", {{"erode", false}, {"convert", true}}, false);
   if (const Node* inner = block.require("when", "for instance when: {plastic_strain: 1.0}")) {
-    Block when{inner, inner->path, *inner, reading.problems};
-    const auto limit = [&](const char* name, const char* unit, const char* meaning, double& to) {
-      if (const auto value = when.optional_number({name, unit, Range::positive, 0, meaning}))
-        to = *value;
+    Block when{element_limits_block(), inner, inner->path, *inner, reading.problems};
+    const auto limit = [&](const char* name, double& to) {
+      if (const auto value = when.optional_number(name)) to = *value;
     };
     out.failed = when.flag("failed", false);
-    limit("plastic_strain", "1", "at which an element is taken out", out.plastic_strain);
-    limit("step", "s", "stable step below which an element is taken out", out.step);
-    limit("jacobian", "1", "least of the corners by their mean", out.jacobian);
-    limit("least_volume", "1", "ratio to the start below which it is taken out",
-          out.volume_ratio[0]);
-    limit("greatest_volume", "1", "ratio to the start above which it is taken out",
-          out.volume_ratio[1]);
+    limit("plastic_strain", out.plastic_strain);
+    limit("step", out.step);
+    limit("jacobian", out.jacobian);
+    limit("least_volume", out.volume_ratio[0]);
+    limit("greatest_volume", out.volume_ratio[1]);
     if (!(out.volume_ratio[0] < 1) || !(out.volume_ratio[1] > 1))
       block.fail(*inner, "least_volume must lie below 1 and greatest_volume above");
     if (out.jacobian >= 1)
@@ -82,11 +77,11 @@ int read_reference(Block& parent, double& strain, Reading& reading) {
   const Node* node = parent.find("reference");
   if (node == nullptr || node->kind == Node::Kind::scalar)
     return parent.choice<int>("reference", {{"current", 0}, {"initial", 1}, {"adaptive", 2}}, 0);
-  Block block{node, node->path, *node, reading.problems};
+  Block block{body_reference_block(), node, node->path, *node, reading.problems};
   if (const Node* inner = block.require("adaptive", "or current, initial, adaptive")) {
-    Block adaptive{inner, inner->path, *inner, reading.problems};
-    strain = adaptive.number({"strain", "1", Range::positive, strain,
-                              "greatest Green-Lagrange strain on one reference"});
+    Block adaptive{member(body_reference_block(), "adaptive"), inner, inner->path, *inner,
+                   reading.problems};
+    strain = adaptive.number("strain", strain);
     block.record("adaptive", adaptive.finish());
   }
   parent.record("reference", block.finish());
@@ -109,7 +104,7 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
     body.mesh->element = reading.scene.grid.cell;
     return string_node("lagrangian_mesh");
   }
-  Block block{&node, node.path, node, reading.problems};
+  Block block{kinematics_block(), &node, node.path, node, reading.problems};
   if (node.find("sph") && node.find("lagrangian_mesh")) {
     block.fail("gives lagrangian_mesh and sph: a body has one of the two");
     return node;
@@ -120,9 +115,8 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
   }
   body.mesh = MeshOptions{};
   if (const Node* inner = block.require("lagrangian_mesh", "or sph, or kinematics: mpm")) {
-    Block mesh{inner, inner->path, *inner, reading.problems};
-    body.mesh->element = mesh.number(
-        {"element", "m", Range::positive, reading.scene.grid.cell, "edge of an element"});
+    Block mesh{lagrangian_mesh_block(), inner, inner->path, *inner, reading.problems};
+    body.mesh->element = mesh.number("element", reading.scene.grid.cell);
     read_hourglass(mesh, body.mesh->hourglass, reading);
     body.mesh->reference =
         static_cast<ElementReference>(read_reference(mesh, body.mesh->refresh_strain, reading));

@@ -70,7 +70,7 @@ void read_where(Block& parent, FaceLoad& load, Reading& reading) {
   const Node* node = parent.find("where");
   if (!node) return;
   MeasureSelection selection;
-  Block block{node, node->path, parent.place(), reading.problems};
+  Block block{bounds_block(), node, node->path, parent.place(), reading.problems};
   read_bounds(block, selection.region, reading);
   load.region = selection.region;
   parent.record("where", block.finish());
@@ -128,7 +128,7 @@ void read_value(Block& block, FaceLoad& load, Reading& reading) {
 Node read_load(const Node& node, Reading& reading) {
   FaceLoad load;
   load.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{load_block(), &node, node.path, node, reading.problems};
   load.where = block.place().where();
   read_bodies(block, load, reading);
   if (const Node* face = block.find("face")) {
@@ -230,9 +230,8 @@ std::optional<ReadTime> read_time_function(const Node& node, const char* unit, R
 void read_loads(Block& root, Reading& reading) {
   LoadOptions& loads = reading.scene.loads;
   if (const Node* node = root.find_block("damping")) {
-    Block block{node, node->path, root.place(), reading.problems};
-    loads.damping = block.number(
-        {"mass", "1/s", Range::positive, kRequired, "eta of the force -eta m v on every mass"});
+    Block block{damping_block(), node, node->path, root.place(), reading.problems};
+    loads.damping = block.number("mass");
     root.record("damping", block.finish());
   }
   for (FaceLoad& load : loads.faces) find_bodies(load, reading);

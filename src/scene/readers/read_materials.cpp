@@ -13,15 +13,6 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, kRequired,
-                                 "density at rest"};
-constexpr ParameterInfo kSpallShort{"spall_strength", "Pa", Range::positive, kRequired,
-                                    "tension at which the material parts"};
-constexpr ParameterInfo kSpall{"strength", "Pa", Range::positive, kRequired,
-                               "tension at which the material parts"};
-constexpr ParameterInfo kTemperature{"initial_temperature", "K", Range::positive, 293,
-                                     "at the start"};
-
 /// Five digits, for messages.
 std::string rounded(double value) {
   std::ostringstream text;
@@ -71,7 +62,7 @@ struct LawReader {
   /// The parameters of one law; `node` may be null: all defaults.
   Node read_parameters(LawChoice& choice, const Node* node, const std::string& path) {
     const LawInfo& law = law_info(choice);
-    Block block{node, path, material.place(), reading.problems};
+    Block block{law_block(choice.law), node, path, material.place(), reading.problems};
     choice.where = block.place().where();
     const bool absent = node == nullptr;
     for (ParameterInfo info : law.parameters) {
@@ -129,7 +120,7 @@ struct LawReader {
     if (!node) return;
     Node resolved, law = *node;
     if (node->kind == Node::Kind::map) {
-      Block block{node, node->path, material.place(), reading.problems};
+      Block block{damage_block(), node, node->path, material.place(), reading.problems};
       options.coupling = block.choice<Coupling>(
           "coupling", {{"effective", Coupling::effective}, {"rate", Coupling::rate}},
           options.coupling);
@@ -155,7 +146,8 @@ struct LawReader {
   }
 
   void read_failure(const Node* failure) {
-    Block action{failure, material.place().path + ".failure", material.place(), reading.problems};
+    Block action{failure_block(), failure, material.place().path + ".failure", material.place(),
+                 reading.problems};
     options.failure = action.choice<FailureAction>(
         "action",
         {{"strength_loss", FailureAction::strength_loss}, {"remove", FailureAction::remove}},
@@ -166,20 +158,21 @@ struct LawReader {
   /// `spall: {strength: 1.2 GPa, action: fail}`; `spall_strength: 1.2 GPa`, or `spall: 1.2 GPa`, is
   /// the same.
   void read_spall() {
-    std::optional<double> brief = material.optional_number(kSpallShort);
+    std::optional<double> brief = material.optional_number("spall_strength");
     const Node* node = material.find_block("spall");
     if (brief && node)
       material.fail(*node, "spall_strength gives the strength already: keep one of the two");
     if (node && node->kind == Node::Kind::scalar) {
-      brief = read_number(*node, kSpall.unit, kSpall.range, reading.problems);
+      brief = read_number(*node, "Pa", Range::positive, reading.problems);
       node = nullptr;
     }
     if (!brief && !node) return;
     const Node* place = material.find("spall");
     options.spall_where = (place ? place : material.find("spall_strength"))->where();
-    Block block{node, material.place().path + ".spall", material.place(), reading.problems};
+    Block block{spall_block(), node, material.place().path + ".spall", material.place(),
+                reading.problems};
     if (brief) block.record("strength", number_node(*brief));
-    options.spall_strength = brief ? *brief : block.number(kSpall);
+    options.spall_strength = brief ? *brief : block.number("strength");
     options.spall_action = block.choice<SpallAction>(
         "action", {{"fail", SpallAction::fail}, {"limit", SpallAction::limit}},
         options.spall_action);
@@ -329,15 +322,15 @@ void check_combination(MaterialOptions& material, Block& block, Reading& reading
 Node read_material(const Node& node, Reading& reading) {
   MaterialOptions material;
   material.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{material_block(), &node, node.path, node, reading.problems};
   material.where = block.place().where();
   block.find("card");  // already laid under the block
-  material.density = block.number(kDensity);
+  material.density = block.number("density");
   ElasticConstants constants = read_elastic_constants(block);
   material.shear_modulus = constants.shear;
   material.bulk_modulus = constants.bulk;
   if (constants.shear > 0) block.record("shear_modulus", number_node(constants.shear));
-  material.initial_temperature = block.number(kTemperature);
+  material.initial_temperature = block.number("initial_temperature");
   LawReader laws{reading, constants, block, material};
   material.eos = laws.read_named("eos");
   material.strength = laws.read_named("strength");

@@ -34,10 +34,6 @@ int read_body_name(const Node& node, Reading& reading) {
 
 namespace {
 
-constexpr ParameterInfo kFromLowerEnd{
-    "from_lower_end", "m", Range::non_negative, kRequired,
-    "distance from the body's lower end at the time of measuring"};
-
 /// A required word out of a list; "" after a problem.
 std::string required_word(Block& block, const char* key, const std::string& what,
                           const std::vector<std::string>& known, const std::string& hint) {
@@ -56,16 +52,15 @@ std::string required_word(Block& block, const char* key, const std::string& what
 /// `at: {z: 5 mm}` or `at: {from_lower_end: 5 mm}`.
 void read_at(const Node* node, MeasureOptions& measure, Block& parent, Reading& reading) {
   if (!node) return;
-  Block block{node, node->path, parent.place(), reading.problems};
-  const ParameterInfo height{"z", "m", Range::any, kRequired, "position on the z axis"};
-  const std::optional<double> z = block.optional_number(height);
-  const std::optional<double> above = block.optional_number(kFromLowerEnd);
+  Block block{measure_at_block(), node, node->path, parent.place(), reading.problems};
+  const std::optional<double> z = block.optional_number("z");
+  const std::optional<double> above = block.optional_number("from_lower_end");
   if (!node->find("z") == !node->find("from_lower_end")) {
     block.fail("expected one of {z: ...} and {from_lower_end: ...}");
   }
   measure.at = z.value_or(above.value_or(0.0));
   measure.at_from_end = above.has_value();
-  block.record(above ? kFromLowerEnd.key : height.key, number_node(measure.at));
+  block.record(above ? "from_lower_end" : "z", number_node(measure.at));
   parent.record("at", block.finish());
 }
 
@@ -73,19 +68,15 @@ void read_at(const Node* node, MeasureOptions& measure, Block& parent, Reading& 
 void read_within(MeasureOptions& measure, Block& parent, Reading& reading) {
   const Node* node = parent.find("within");
   if (!node) return;
-  Block block{node, node->path, parent.place(), reading.problems};
-  measure.level = block.number({"from_lower_end", "m", Range::positive, kRequired,
-                                "greatest distance from the body's lower end"});
+  Block block{measure_within_block(), node, node->path, parent.place(), reading.problems};
+  measure.level = block.number("from_lower_end");
   parent.record("within", block.finish());
 }
 
 /// The share of debris_extent is held by it, that of an extreme lies beyond it: 0 is one point.
 void read_mass_share(Block& block, MeasureOptions& measure) {
   const bool extent = measure.kind == MeasureKind::debris_extent;
-  measure.mass_share =
-      block.number({"mass_share", "1", Range::fraction, extent ? 1.0 : kExtremeShare,
-                    extent ? "share of the mass that the extent holds"
-                           : "share of the mass that reaches the value; 0: a single point"});
+  measure.mass_share = block.number("mass_share", extent ? 1.0 : kExtremeShare);
   if (extent && measure.mass_share == 0) block.fail("mass_share must be positive");
 }
 
@@ -209,7 +200,7 @@ std::vector<int> read_bodies(Block& block, Reading& reading) {
 void read_region(Block& parent, MeasureSelection& selection, Reading& reading) {
   const Node* node = parent.find("region");
   if (!node) return;
-  Block block{node, node->path, parent.place(), reading.problems};
+  Block block{bounds_block(), node, node->path, parent.place(), reading.problems};
   read_bounds(block, selection.region, reading);
   parent.record("region", block.finish());
 }
@@ -234,7 +225,7 @@ void read_selection(Block& block, MeasureOptions& measure, Reading& reading) {
       block.choice<bool>("piece", {{"all", false}, {"largest", true}}, kind.whole);
   const bool counts = measure.kind == MeasureKind::fragments;
   const int fallback = counts ? points_of_two_cells(selection, reading.scene) : 0;
-  selection.least_points = block.integer("least_points", 0, 1'000'000'000, fallback);
+  selection.least_points = block.integer("least_points", fallback);
   read_region(block, selection, reading);
 }
 
@@ -268,9 +259,7 @@ void read_keys(Block& block, MeasureOptions& measure, Reading& reading) {
   }
   if (takes(kind, "face")) read_face(block, measure, false, reading);
   if (takes(kind, "z_face")) read_face(block, measure, true, reading);
-  if (takes(kind, "level"))
-    measure.level = block.number(
-        {"level", "m", Range::positive, reading.scene.grid.cell, "depth below the original face"});
+  if (takes(kind, "level")) measure.level = block.number("level", reading.scene.grid.cell);
   if (takes(kind, "within")) read_within(measure, block, reading);
   if (takes(kind, "mass_share")) read_mass_share(block, measure);
 }
@@ -287,7 +276,7 @@ void read_when(Block& block, MeasureOptions& measure) {
 Node read_measure(const Node& node, Reading& reading) {
   MeasureOptions measure;
   measure.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{measure_block(), &node, node.path, node, reading.problems};
   measure.where = block.place().where();
   std::vector<std::string> names;
   for (const MeasureKindInfo& kind : measure_kinds()) names.emplace_back(kind.name);
@@ -333,13 +322,13 @@ Node read_measures(const Node* node, Reading& reading) {
 }
 
 Node read_references(const Node* node, Reading& reading) {
-  Block block{node, "references", reading.root, reading.problems};
+  Block block{references_block(), node, "references", reading.root, reading.problems};
   for (MeasureOptions& measure : reading.scene.measures) {
     const Node* item = block.find(measure.name.c_str());
     if (!item) continue;
-    Block reference{item, item->path, block.place(), reading.problems};
-    const ParameterInfo value{"value", unit_of(measure), Range::any, kRequired,
-                              "what the measure should be"};
+    Block reference{reference_block(), item, item->path, block.place(), reading.problems};
+    ParameterInfo value = parameter_of(reference.info(), declared(reference.info(), "value"));
+    value.unit = unit_of(measure);
     measure.reference = reference.number(value);
     measure.reference_source = reference.text("source", "");
     block.record(measure.name, reference.finish());

@@ -7,12 +7,7 @@
 
 namespace krater::scene {
 
-namespace {
-
-constexpr ParameterInfo kMerge{"merge_nodes", "m", Range::non_negative, 0,
-                               "nodes nearer than this become one, 0: none"};
-
-}  // namespace
+namespace {}  // namespace
 
 std::shared_ptr<const Solid> read_mesh(Block& block, Reading& reading) {
   const Node* file = block.require("file", "a .msh, .inp or .k file beside the scene");
@@ -20,7 +15,7 @@ std::shared_ptr<const Solid> read_mesh(Block& block, Reading& reading) {
                                    "of the file's numbers, for example mm: it is not stated in "
                                    "the file");
   PartOptions options;
-  options.merge_nodes = block.number(kMerge);
+  options.merge_nodes = block.number("merge_nodes");
   if (const Node* part = block.find("part")) {
     options.part = read_word(*part, reading.problems);
     block.record("part", *part);

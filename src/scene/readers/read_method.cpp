@@ -11,48 +11,14 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kEnd{"end", "s", Range::positive, kRequired, "time at which the run ends"};
-constexpr ParameterInfo kCfl{"cfl", "1", Range::positive, 0.9,
-                             "share of the limit of stability, at most 1"};
-constexpr ParameterInfo kMaxStep{"max_step", "s", Range::non_negative, 0,
-                                 "longest time step, 0: any"};
-constexpr ParameterInfo kMinStep{"min_step", "s", Range::non_negative, 0,
-                                 "a shorter time step is a failure, 0: 1e-6 of the first"};
-constexpr ParameterInfo kFirstStep{"first_step", "s", Range::non_negative, 0, "0: automatic"};
-
-constexpr ParameterInfo kEnergyError{
-    "energy_error", "1", Range::positive, 0.1,
-    "greatest share of the energy that may be unphysical before the run fails, or off"};
-
-constexpr ParameterInfo kJitter{"jitter", "1", Range::fraction, 0,
-                                "greatest random shift of a point, in point spacings"};
-constexpr ParameterInfo kFlip{
-    "flip_fraction", "1", Range::fraction, 0.99,
-    "part of the residual of a point's own velocity kept in a step (tflip)"};
-
-constexpr ParameterInfo kEnergyAlpha{"energy_alpha", "1", Range::fraction, 0.5,
-                                     "alpha of Algorithm 1: share of the pressure of the start in "
-                                     "the energy that gives the new one"};
-
-constexpr ParameterInfo kStrain{
-    "strain", "1", Range::positive, 0.3,
-    "largest Green-Lagrange strain before the current configuration becomes the reference"};
-
-constexpr ParameterInfo kFrames{"frames", "s", Range::non_negative, 0,
-                                "between frames, 0: first and last"};
-constexpr ParameterInfo kHistory{"history", "s", Range::non_negative, 0,
-                                 "between rows, 0: every step"};
-constexpr ParameterInfo kCheckpoint{"checkpoint", "s", Range::non_negative, 600,
-                                    "wall clock between checkpoints, 0: at the end or on a signal"};
-
-constexpr int kHighestXpicOrder = 10;
+constexpr const char* kEnergyError = "energy_error";
 constexpr double kMostFrames = 999'999;  ///< six digits of their names
 
 /// A word, or a word with options: `flip`, `{xpic: {order: 4}}`. `read_options` reads what belongs
 /// to the value found.
 template <class T, class ReadOptions>
 Node read_worded(const Node* node, const std::string& key, const Words<T>& words, T& value,
-                 Reading& reading, const ReadOptions& read_options) {
+                 const BlockInfo& declaration, Reading& reading, const ReadOptions& read_options) {
   const Node* options = nullptr;
   if (node) {
     const std::optional<Choice> choice = read_choice(*node, key, reading.problems);
@@ -72,7 +38,8 @@ Node read_worded(const Node* node, const std::string& key, const Words<T>& words
   const std::string name = std::find_if(words.begin(), words.end(), [&](const auto& word) {
                              return word.second == value;
                            })->first;
-  Block block{options, "method." + key + "." + name, node ? *node : reading.root, reading.problems};
+  Block block{member(declaration, name), options, "method." + key + "." + name,
+              node ? *node : reading.root, reading.problems};
   read_options(block);
   const Node values = block.finish();
   if (values.items.empty()) return string_node(name);
@@ -83,14 +50,14 @@ Node read_worded(const Node* node, const std::string& key, const Words<T>& words
 
 /// A share, or `off`.
 double read_energy_error(Block& block) {
-  const Node* node = block.find(kEnergyError.key);
+  const Node* node = block.find(kEnergyError);
   const bool word = node != nullptr && node->kind == Node::Kind::scalar && !node->text.empty() &&
                     std::isalpha(static_cast<unsigned char>(node->text.front())) != 0;
   if (!word) return block.number(kEnergyError);
   if (node->text != "off")
     block.fail(*node, "must be a share of the energy (0.1 is the default) or off, found " +
                           quote(node->text));
-  block.record(kEnergyError.key, string_node("off"));
+  block.record(kEnergyError, string_node("off"));
   return 0;
 }
 
@@ -100,10 +67,11 @@ Node read_transfer(const Node* node, Reading& reading) {
                               {"flip", Transfer::flip},
                               {"apic", Transfer::apic},
                               {"xpic", Transfer::xpic}};
-  return read_worded(node, "transfer", words, method.transfer, reading, [&](Block& block) {
-    if (method.transfer == Transfer::xpic)
-      method.xpic_order = block.integer("order", 1, kHighestXpicOrder, method.xpic_order);
-  });
+  return read_worded(node, "transfer", words, method.transfer, transfer_block(), reading,
+                     [&](Block& block) {
+                       if (method.transfer == Transfer::xpic)
+                         method.xpic_order = block.integer("order", method.xpic_order);
+                     });
 }
 
 Node read_reference(const Node* node, Reading& reading) {
@@ -111,25 +79,27 @@ Node read_reference(const Node* node, Reading& reading) {
   const Words<Reference> words{{"current", Reference::current},
                                {"initial", Reference::initial},
                                {"adaptive", Reference::adaptive}};
-  return read_worded(node, "reference", words, method.reference, reading, [&](Block& block) {
-    if (method.reference == Reference::adaptive) method.refresh_strain = block.number(kStrain);
-  });
+  return read_worded(node, "reference", words, method.reference, method_reference_block(), reading,
+                     [&](Block& block) {
+                       if (method.reference == Reference::adaptive)
+                         method.refresh_strain = block.number("strain", method.refresh_strain);
+                     });
 }
 
 }  // namespace
 
 Node read_time(const Node* node, Reading& reading) {
   TimeOptions& time = reading.scene.time;
-  Block block{node, "time", reading.root, reading.problems};
+  Block block{time_block(), node, "time", reading.root, reading.problems};
   time.where = block.place().where();
-  time.end = block.number(kEnd);
-  time.cfl = block.number(kCfl);
+  time.end = block.number("end");
+  time.cfl = block.number("cfl");
   if (time.cfl > 1)
     block.fail(*node->find("cfl"), "must be at most 1 (the scheme is unstable beyond), found " +
                                        quote(node->find("cfl")->text));
-  time.max_step = block.number(kMaxStep);
-  time.min_step = block.number(kMinStep);
-  time.first_step = block.number(kFirstStep);
+  time.max_step = block.number("max_step");
+  time.min_step = block.number("min_step");
+  time.first_step = block.number("first_step");
   time.energy_error = read_energy_error(block);
   if (time.max_step > 0 && time.min_step > time.max_step)
     block.fail("min_step is longer than max_step");
@@ -141,7 +111,7 @@ Node read_time(const Node* node, Reading& reading) {
 
 Node read_method(const Node* node, Reading& reading) {
   MethodOptions& method = reading.scene.method;
-  Block block{node, "method", reading.root, reading.problems};
+  Block block{method_block(), node, "method", reading.root, reading.problems};
   method.shape = block.choice<Shape>("shape",
                                      {{"quadratic_bspline", Shape::quadratic_bspline},
                                       {"gimp", Shape::gimp},
@@ -152,18 +122,17 @@ Node read_method(const Node* node, Reading& reading) {
   method.update = block.choice<Update>(
       "update", {{"usl", Update::usl}, {"musl", Update::musl}, {"usf", Update::usf}},
       method.update);
-  method.points_per_direction =
-      block.integer("points_per_direction", 1, 8, method.points_per_direction);
+  method.points_per_direction = block.integer("points_per_direction", method.points_per_direction);
   method.stagger = block.flag("stagger", method.stagger);
-  method.jitter = block.number(kJitter);
-  method.seed = static_cast<unsigned>(block.integer("seed", 0, 1'000'000'000, 1));
+  method.jitter = block.number("jitter");
+  method.seed = static_cast<unsigned>(block.integer("seed", 1));
   method.cell_averaging = block.flag("cell_averaging", method.cell_averaging);
   method.grid_pressure = block.choice<GridPressure>(
       "grid_pressure",
       {{"fluids", GridPressure::fluids}, {"none", GridPressure::none}, {"all", GridPressure::all}},
       method.grid_pressure);
-  method.flip_fraction = block.number(kFlip);
-  method.energy_alpha = block.number(kEnergyAlpha);
+  method.flip_fraction = block.number("flip_fraction");
+  method.energy_alpha = block.number("energy_alpha");
   method.dormant_blocks = block.flag("dormant_blocks", method.dormant_blocks);
   return block.finish();
 }
@@ -206,17 +175,17 @@ const std::vector<FieldName>& known_fields() {
 
 Node read_output(const Node* node, Reading& reading) {
   OutputOptions& output = reading.scene.output;
-  Block block{node, "output", reading.root, reading.problems};
+  Block block{output_block(), node, "output", reading.root, reading.problems};
   output.where = block.place().where();
-  output.frames = block.number(kFrames);
+  output.frames = block.number("frames");
   const double most = kMostFrames * output.frames;
   if (output.frames > 0 && most < reading.scene.time.end)
     block.fail(*block.find("frames"),
                "is shorter than a millionth of time.end, and no more than a million frames can be "
                "written; found " +
                    quote(block.find("frames")->text));
-  output.history = block.number(kHistory);
-  output.checkpoint_wall = block.number(kCheckpoint);
+  output.history = block.number("history");
+  output.checkpoint_wall = block.number("checkpoint");
   std::vector<Node> written;
   if (const Node* list = block.find("fields")) {
     output.where = list->where();

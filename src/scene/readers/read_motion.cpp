@@ -11,13 +11,6 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kSpeed{"speed", "m/s", Range::non_negative, kRequired,
-                               "size of the velocity"};
-constexpr ParameterInfo kAngle{"angle", "rad", Range::any, kRequired,
-                               "obliquity: from -z, straight down, towards +x"};
-constexpr ParameterInfo kRate{"rate", "radian/s", Range::any, kRequired,
-                              "angular velocity, right-handed about the axis"};
-
 /// A translation that carries its centre of rotation along.
 class TurningField final : public FieldFunction {
  public:
@@ -160,13 +153,13 @@ Node space_node(const Triple& v) {
 
 /// `turn: {axis: y, rate: 300 rpm, through: [0, 5 mm]}`; adds to `motion`.
 Node read_turn(const Node& node, const Solid* solid, ReadField& motion, Reading& reading) {
-  Block block{&node, node.path, node, reading.problems};
-  const Node *axis_node = block.find("axis"), *rate_node = block.find(kRate.key),
+  Block block{turn_block(), &node, node.path, node, reading.problems};
+  const Node *axis_node = block.find("axis"), *rate_node = block.find("rate"),
              *through = block.find("through");
   const auto axis = read_turning_axis(axis_node, block, reading);
   if (rate_node && rate_node->text.find("Hz") != std::string::npos)
     block.fail(*rate_node, "of turns or of radians? write rpm or rad/s");
-  const double rate = block.number(kRate);
+  const double rate = block.number("rate");
   std::optional<Triple> centre =
       through ? read_position(*through, reading) : centroid(solid, reading.scene.frame);
   if (!through && !centre && solid)
@@ -190,9 +183,9 @@ Node read_turn(const Node& node, const Solid* solid, ReadField& motion, Reading&
 }  // namespace
 
 std::optional<Triple> read_speed(const Node& node, Reading& reading) {
-  Block block{&node, node.path, node, reading.problems};
-  const double speed = block.number(kSpeed);
-  const Node *towards = block.find("towards"), *angle = block.find(kAngle.key);
+  Block block{speed_block(), &node, node.path, node, reading.problems};
+  const double speed = block.number("speed");
+  const Node *towards = block.find("towards"), *angle = block.find("angle");
   std::optional<Triple> along;
   if (!towards == !angle) {
     block.fail(
@@ -200,7 +193,7 @@ std::optional<Triple> read_speed(const Node& node, Reading& reading) {
         "(obliquity: from -z towards +x)");
   } else if (towards) {
     along = read_direction(*towards, reading);
-  } else if (const auto value = read_number(*angle, kAngle.unit, kAngle.range, reading.problems)) {
+  } else if (const auto value = block.optional_number("angle")) {
     along = oblique(*value, *angle, reading);
   }
   block.finish();

@@ -10,8 +10,6 @@ namespace {
 using When = StopOptions::When;
 
 constexpr double kLooks = 200;  ///< over the run, unless told otherwise
-constexpr ParameterInfo kTolerance{"tolerance", "1", Range::positive, 0.01,
-                                   "of the change of velocity, that counts as no change any more"};
 
 /// A required body by its key.
 int read_body(Block& block, const char* key, const std::string& hint, Reading& reading) {
@@ -50,25 +48,24 @@ int find_outcome(int projectile, int target, bool any_target, const Node& place,
 Node read_outcome(const Node& node, Reading& reading) {
   OutcomeOptions outcome;
   outcome.name = node.key;
-  Block block{&node, node.path, node, reading.problems};
+  Block block{outcome_block(), &node, node.path, node, reading.problems};
   outcome.where = block.place().where();
   outcome.projectile = read_body(block, "projectile", "the body whose fate is asked", reading);
   outcome.target = read_body(block, "target", "the body that it meets", reading);
   check_pair(outcome, block);
-  outcome.tolerance = block.number(kTolerance);
+  outcome.tolerance = block.number("tolerance");
   if (outcome.tolerance > 0.2) block.fail("a tolerance above 0.2 tells nothing");
   outcome.identity = node.key + " " + std::to_string(outcome.tolerance);
   for (const char* key : {"projectile", "target"})
     if (const Node* body = node.find(key)) outcome.identity += " " + body->text;
-  outcome.every = block.number(
-      {"every", "s", Range::non_negative, reading.scene.time.end / kLooks, "time between looks"});
+  outcome.every = block.number("every", reading.scene.time.end / kLooks);
   Node resolved = block.finish();
   if (outcome.projectile >= 0) reading.scene.outcomes.push_back(std::move(outcome));
   return resolved;
 }
 
 void read_perforated(const Node& node, StopOptions& stop, Reading& reading) {
-  Block block{&node, node.path, node, reading.problems};
+  Block block{perforated_block(), &node, node.path, node, reading.problems};
   OutcomeOptions outcome;
   outcome.projectile = read_body(block, "projectile", "a body", reading);
   outcome.target = read_body(block, "target", "the body that it goes through", reading);

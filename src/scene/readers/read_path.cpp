@@ -33,19 +33,6 @@ namespace scene {
 
 namespace {
 
-constexpr ParameterInfo kRate{"rate", "s^-1", Range::positive, kRequired,
-                              "rate of the strain or shear"};
-constexpr ParameterInfo kReleaseRate{"rate", "s^-1", Range::positive, 1e6,
-                                     "nominal rate of the volume strain"};
-constexpr ParameterInfo kTime{"time", "s", Range::positive, kRequired, "end of the path"};
-constexpr ParameterInfo kLateral{"lateral_stress", "Pa", Range::any, kRequired,
-                                 "stress on the sides, tension positive"};
-constexpr ParameterInfo kTriaxiality{"triaxiality", "1", Range::any, kRequired,
-                                     "mean stress over von Mises stress"};
-constexpr ParameterInfo kPressure{"pressure", "Pa", Range::any, 0.0, "at the end of the release"};
-constexpr ParameterInfo kFrom{"from", "", Range::any, kRequired, "first value"};
-constexpr ParameterInfo kTo{"to", "", Range::any, kRequired, "last value"};
-
 struct PathReader {
   Block& block;
   Reading& reading;
@@ -72,12 +59,13 @@ struct PathReader {
   }
 
   std::vector<double> evenly_spaced(const Node& node, const char* unit, Range range) {
-    Block even{&node, node.path, node, reading.problems};
-    ParameterInfo from = kFrom, to = kTo;
+    Block even{even_block(), &node, node.path, node, reading.problems};
+    ParameterInfo from = parameter_of(even.info(), declared(even.info(), "from")),
+                  to = parameter_of(even.info(), declared(even.info(), "to"));
     from.unit = to.unit = unit;
     from.range = to.range = range;
     const double a = even.number(from), b = even.number(to);
-    const int count = even.integer("count", 2, 1'000'000, 21);
+    const int count = even.integer("count", 21);
     even.finish();
     std::vector<double> values;
     for (int i = 0; i < count; ++i) values.push_back(a + (b - a) * i / (count - 1));
@@ -101,7 +89,7 @@ struct PathReader {
       }
       record(key, path.turns);
     }
-    path.rate = block.number(kRate);
+    path.rate = block.number("rate");
   }
 
   /// `compression: [0.1, 0.05]` (rho/rho0 - 1) or `pressure: [100 MPa, 0]`.
@@ -119,17 +107,17 @@ struct PathReader {
 
   void biaxial() {
     turns("strain");
-    path.lateral_stress = block.optional_number(kLateral);
-    if (path.lateral_stress) block.record(kLateral.key, number_node(*path.lateral_stress));
+    path.lateral_stress = block.optional_number("lateral_stress");
+    if (path.lateral_stress) block.record("lateral_stress", number_node(*path.lateral_stress));
   }
 
   void triaxial() {
-    path.lateral_stress = block.optional_number(kLateral);
-    path.triaxiality = block.optional_number(kTriaxiality);
+    path.lateral_stress = block.optional_number("lateral_stress");
+    path.triaxiality = block.optional_number("triaxiality");
     if (path.lateral_stress.has_value() == path.triaxiality.has_value())
       block.fail("give one of lateral_stress and triaxiality");
-    if (path.lateral_stress) block.record(kLateral.key, number_node(*path.lateral_stress));
-    if (path.triaxiality) block.record(kTriaxiality.key, number_node(*path.triaxiality));
+    if (path.lateral_stress) block.record("lateral_stress", number_node(*path.lateral_stress));
+    if (path.triaxiality) block.record("triaxiality", number_node(*path.triaxiality));
   }
 
   /// Behind the shock: particle speeds or densities; one of them for a release.
@@ -189,7 +177,7 @@ struct PathReader {
       rows.push_back(list_node(items));
     }
     block.record(key, list_node(rows));
-    path.time = block.number(kTime);
+    path.time = block.number("time");
   }
 
   /// A point starts undeformed.
@@ -208,8 +196,8 @@ struct PathReader {
 
   void release() {
     shocked(true);
-    path.pressure = block.number(kPressure);
-    path.rate = block.number(kReleaseRate);
+    path.pressure = block.number("pressure");
+    path.rate = block.number("rate");
   }
 
   void read() {
@@ -253,7 +241,8 @@ Node read_path(const Node& node, PathOptions& path, Reading& reading) {
     return resolved;
   }
   path.kind = kPathKinds.at(static_cast<std::size_t>(found - kPathNames.begin()));
-  Block block{chosen->value, node.path + "." + chosen->name, node, reading.problems};
+  Block block{member(path_block(), chosen->name), chosen->value, node.path + "." + chosen->name,
+              node, reading.problems};
   path.where = block.place().where();
   PathReader{block, reading, path}.read();
   add_member(resolved, chosen->name, block.finish());

@@ -12,12 +12,6 @@ namespace {
 
 using namespace scene;
 
-constexpr int kMostSteps = 100'000'000;
-constexpr ParameterInfo kTemperature{"temperature", "K", Range::positive, kRequired,
-                                     "at the start of the path"};
-constexpr ParameterInfo kLength{"length", "m", Range::positive, kRequired,
-                                "element length, which viscosity and softening by an energy need"};
-
 /// The material named, or the only one.
 std::optional<MaterialOptions> choose_material(Block& point, Reading& reading) {
   const Node* node = point.find("material");
@@ -57,21 +51,21 @@ void check_combination(const PointScene& out, Block& point) {
 }
 
 Node read_point_block(const Node* node, PointScene& out, Reading& reading) {
-  Block point{node, "point", reading.root, reading.problems};
+  Block point{point_block(), node, "point", reading.root, reading.problems};
   const std::optional<MaterialOptions> material = choose_material(point, reading);
   if (material) out.material = *material;
   if (const Node* path = point.require("path", "how the material is loaded")) {
     point.record("path", read_path(*path, out.path, reading));
   }
-  out.steps = point.integer("steps", 1, kMostSteps, 1000);
-  out.every = point.integer("every", 1, kMostSteps, 1);
-  if (const auto temperature = point.optional_number(kTemperature))
+  out.steps = point.integer("steps", 1000);
+  out.every = point.integer("every", 1);
+  if (const auto temperature = point.optional_number("temperature"))
     out.material.initial_temperature = *temperature;
   point.record("temperature", number_node(out.material.initial_temperature));
   if (out.material.viscosity || softening_length(out.material)) {
-    out.length = point.number(kLength);
+    out.length = point.number("length");
     if (!reading.problems.any()) check_softening(out.material, out.length, point);
-  } else if (const auto length = point.optional_number(kLength)) {
+  } else if (const auto length = point.optional_number("length")) {
     out.length = *length;
     point.record("length", number_node(*length));
   }
@@ -90,7 +84,7 @@ PointScene read_point(const std::string& file, const std::vector<std::string>& o
   scene.file = file;
   PointScene out;
   out.file = file;
-  Block root{&tree, "", tree, problems};
+  Block root{point_scene_block(), &tree, "", tree, problems};
   Reading reading{scene, problems, tree};
   out.title = root.text("title", std::filesystem::path{file}.stem().string());
   for (const char* key : {"materials", "point"}) {

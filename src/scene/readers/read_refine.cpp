@@ -10,8 +10,6 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kMargin{"margin", "m", Range::non_negative, kRequired,
-                                "how far around the body cells are finer"};
 constexpr const char* kExample =
     "a list of rules such as {region: {box: {min: [0, 0], max: [8 mm, 4 mm]}}, level: 1} or "
     "{follow: BODY, margin: 3 mm, level: 2} or {where: {field: plastic_strain, above: 0.1}}";
@@ -19,7 +17,7 @@ constexpr const char* kExample =
 /// A box of the section, or any shape.
 void read_region(const Node& node, RefineOptions& rule, Reading& reading) {
   if (const Node* box = node.find("box")) {
-    Block block{box, box->path, *box, reading.problems};
+    Block block{corners_block(), box, box->path, *box, reading.problems};
     rule.box = read_corners(block, reading);
     block.finish();
     return;
@@ -28,7 +26,7 @@ void read_region(const Node& node, RefineOptions& rule, Reading& reading) {
 }
 
 Node read_where(const Node& node, RefineOptions& rule, Reading& reading) {
-  Block block{&node, node.path, node, reading.problems};
+  Block block{refine_where_block(), &node, node.path, node, reading.problems};
   const Node* field = block.require("field", "a scalar of the points, as plastic_strain");
   if (field == nullptr) return block.finish();
   if (const auto name = read_word(*field, reading.problems)) rule.field = *name;
@@ -43,15 +41,17 @@ Node read_where(const Node& node, RefineOptions& rule, Reading& reading) {
     return block.finish();
   }
   block.record("field", string_node(rule.field));
-  rule.above = block.number({"above", at->unit, Range::any, kRequired, "threshold of the field"});
+  ParameterInfo above = parameter_of(block.info(), declared(block.info(), "above"));
+  above.unit = at->unit;
+  rule.above = block.number(above);
   return block.finish();
 }
 
 RefineOptions read_rule(const Node& node, Reading& reading, Node& resolved) {
-  Block block{&node, node.path, node, reading.problems};
+  Block block{refine_block(), &node, node.path, node, reading.problems};
   RefineOptions rule;
   rule.where = block.place().where();
-  rule.level = block.integer("level", 1, kMostLevels, 1);
+  rule.level = block.integer("level", 1);
   const Node* region = block.find("region");
   const Node* follow = block.find("follow");
   const Node* where = block.find("where");
@@ -66,7 +66,7 @@ RefineOptions read_rule(const Node& node, Reading& reading, Node& resolved) {
   } else {
     if (const auto name = read_word(*follow, reading.problems)) rule.follow_name = *name;
     block.record("follow", string_node(rule.follow_name));
-    rule.margin = block.number(kMargin);
+    rule.margin = block.number("margin");
   }
   resolved = block.finish();
   return rule;

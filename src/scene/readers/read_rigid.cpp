@@ -12,7 +12,7 @@ Node read_rigid(const Node& node, BodyOptions& body, Reading& reading) {
                            "or expressions in t)");
     return string_node("free");
   }
-  Block block{&node, node.path, node, reading.problems};
+  Block block{rigid_block(), &node, node.path, node, reading.problems};
   body.motion = Motion::prescribed;
   if (!block.find("turn")) block.require("velocity", "for example [0, -10 m/s], or rigid: free");
   if (body.velocity)

@@ -39,11 +39,7 @@ void require_blocks(const Node& tree, Block& root) {
     if (!tree.find(key)) root.fail("missing key '" + std::string{key} + "'");
   }
   if (framed) return;
-  for (const char* key : {"title", "frame", "grid", "time", "method", "materials", "bodies",
-                          "contact", "body_force", "damping", "loads", "detonators", "output",
-                          "measures", "outcomes", "gauges", "references", "expect"}) {
-    root.find(key);
-  }
+  for (const KeyInfo& info : scene_block().keys) root.find(info.key.c_str());
   root.finish();
 }
 
@@ -88,7 +84,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
   tree.line = 0;  // what the file as a whole lacks is missing on no line
   Scene scene;
   scene.file = file;
-  Block root{&tree, "", tree, problems};
+  Block root{scene_block(), &tree, "", tree, problems};
   require_blocks(tree, root);
   if (!tree.find("frame")) problems.throw_if_any();
   scene.title = root.text("title", std::filesystem::path{file}.stem().string());

@@ -14,28 +14,6 @@ namespace {
 
 using SolidPointer = std::shared_ptr<const Solid>;
 
-constexpr ParameterInfo kRadius{"radius", "m", Range::positive, kRequired, "radius"};
-constexpr ParameterInfo kHeight{"height", "m", Range::positive, kRequired, "length along its axis"};
-constexpr ParameterInfo kInner{"inner_radius", "m", Range::positive, kRequired,
-                               "radius of the bore"};
-constexpr ParameterInfo kOuter{"outer_radius", "m", Range::positive, kRequired, "outer radius"};
-constexpr ParameterInfo kTop{"top_radius", "m", Range::non_negative, 0,
-                             "radius at the far end, 0: a tip"};
-constexpr ParameterInfo kBottom{"radius", "m", Range::non_negative, kRequired,
-                                "radius at the base"};
-constexpr ParameterInfo kMajor{"major_radius", "m", Range::positive, kRequired,
-                               "from the axis to the middle of the tube"};
-constexpr ParameterInfo kMinor{"minor_radius", "m", Range::positive, kRequired,
-                               "radius of the tube"};
-constexpr ParameterInfo kLength{"length", "m", Range::positive, kRequired,
-                                "from the flat base to the tip"};
-constexpr ParameterInfo kCrh{"crh", "1", Range::positive, kRequired,
-                             "calibre-radius-head: radius of the nose's arc over the diameter"};
-constexpr ParameterInfo kMin{"min", "m", Range::any, kRequired, "lower bound"};
-constexpr ParameterInfo kMax{"max", "m", Range::any, kRequired, "upper bound"};
-constexpr ParameterInfo kAngle{"angle", "rad", Range::any, kRequired,
-                               "right-handed about the axis"};
-
 /// A position in 3D space by key; the origin by default.
 Triple read_place(Block& block, const char* key, Reading& reading) {
   const Node* node = block.find(key);
@@ -61,8 +39,8 @@ SolidPointer placed(SolidPointer solid, const Affine& map) {
 }
 
 SolidPointer read_cylinder(Block& block, Reading& reading) {
-  const double radius = block.number(kRadius);
-  const double height = block.number(kHeight);
+  const double radius = block.number("radius");
+  const double height = block.number("height");
   const Triple base = read_place(block, "base", reading);
   const int axis = read_axis(block);
   if (reading.problems.any()) return nullptr;
@@ -70,7 +48,7 @@ SolidPointer read_cylinder(Block& block, Reading& reading) {
 }
 
 SolidPointer read_sphere(Block& block, Reading& reading) {
-  const double radius = block.number(kRadius);
+  const double radius = block.number("radius");
   const Triple centre = read_place(block, "center", reading);
   if (reading.problems.any()) return nullptr;
   return std::make_shared<SphereSolid>(radius, centre);
@@ -105,23 +83,23 @@ SolidPointer read_box(Block& block, Reading& reading) {
 }
 
 SolidPointer read_tube(Block& block, Reading& reading) {
-  const double inner = block.number(kInner), outer = block.number(kOuter);
-  const double height = block.number(kHeight);
+  const double inner = block.number("inner_radius"), outer = block.number("outer_radius");
+  const double height = block.number("height");
   const Affine map = read_placing(block, "base", reading);
   if (reading.problems.any()) return nullptr;
   return placed(make_tube(inner, outer, height), map);
 }
 
 SolidPointer read_cone(Block& block, Reading& reading) {
-  const double radius = block.number(kBottom), top = block.number(kTop);
-  const double height = block.number(kHeight);
+  const double radius = block.number("radius"), top = block.number("top_radius");
+  const double height = block.number("height");
   const Affine map = read_placing(block, "base", reading);
   if (reading.problems.any()) return nullptr;
   return placed(make_cone(radius, top, height), map);
 }
 
 SolidPointer read_torus(Block& block, Reading& reading) {
-  const double major = block.number(kMajor), minor = block.number(kMinor);
+  const double major = block.number("major_radius"), minor = block.number("minor_radius");
   const Affine map = read_placing(block, "center", reading);
   if (reading.problems.any()) return nullptr;
   return placed(make_torus(major, minor), map);
@@ -140,8 +118,8 @@ SolidPointer read_ellipsoid(Block& block, Reading& reading) {
 }
 
 SolidPointer read_ogive(Block& block, Reading& reading) {
-  const double radius = block.number(kRadius), length = block.number(kLength);
-  const double crh = block.number(kCrh);
+  const double radius = block.number("radius"), length = block.number("length");
+  const double crh = block.number("crh");
   const Affine map = read_placing(block, "base", reading);
   if (reading.problems.any()) return nullptr;
   return placed(make_ogive(radius, length, crh), map);
@@ -149,13 +127,13 @@ SolidPointer read_ogive(Block& block, Reading& reading) {
 
 SolidPointer read_slab(Block& block, Reading& reading) {
   const double inf = std::numeric_limits<double>::infinity();
-  const auto bound = [&](const ParameterInfo& info, double none) {
-    const std::optional<double> value = block.optional_number(info);
-    if (value) block.record(info.key, number_node(*value));
+  const auto bound = [&](const char* key, double none) {
+    const std::optional<double> value = block.optional_number(key);
+    if (value) block.record(key, number_node(*value));
     return value.value_or(none);
   };
   const int axis = read_axis(block);
-  const double low = bound(kMin, -inf), high = bound(kMax, inf);
+  const double low = bound("min", -inf), high = bound("max", inf);
   if (reading.problems.any()) return nullptr;
   return make_slab(axis, low, high);
 }
@@ -189,7 +167,7 @@ std::vector<std::array<double, 2>> read_polygon(Block& block, const char* hint, 
 SolidPointer read_extrusion(Block& block, Reading& reading) {
   auto corners = read_polygon(block, "[[x, z], ...], the other two axes in order", reading);
   const int axis = read_axis(block, 1);
-  const double low = block.number(kMin), high = block.number(kMax);
+  const double low = block.number("min"), high = block.number("max");
   if (reading.problems.any()) return nullptr;
   if (!(high > low)) throw std::invalid_argument("max must lie beyond min");
   Affine map;
@@ -224,7 +202,7 @@ SolidPointer read_move(Block& block, Reading& reading) {
 
 SolidPointer read_rotate(Block& block, Reading& reading) {
   const int axis = read_axis(block);
-  const double angle = block.number(kAngle);
+  const double angle = block.number("angle");
   const Triple about = read_place(block, "about", reading);
   const SolidPointer inner = read_inner(block, reading);
   if (reading.problems.any() || !inner) return nullptr;
@@ -314,7 +292,8 @@ ReadSolid read_shape(const Node& shape, Reading& reading) {
   }
   for (const ShapeReader& reader : kShapes) {
     if (choice->name != reader.name) continue;
-    Block block{choice->value, shape.path + "." + choice->name, shape, reading.problems};
+    Block block{member(shape_block(), choice->name), choice->value, shape.path + "." + choice->name,
+                shape, reading.problems};
     try {
       result.solid = reader.read(block, reading);
     } catch (const std::invalid_argument& error) {

@@ -19,27 +19,20 @@ int particles_per_cell(const BodyOptions& body, const Scene& scene) {
 
 Node read_sph(const Node* node, const Node& place, BodyOptions& body, Reading& reading) {
   const Scene& scene = reading.scene;
-  Block block{node, place.path, place, reading.problems};
+  Block block{sph_block(), node, place.path, place, reading.problems};
   body.sph = SphOptions{};
   SphOptions& out = *body.sph;
-  out.spacing = block.number({"spacing", "m", Range::positive,
-                              scene.grid.cell / scene.method.points_per_direction,
-                              "of the particles at the start, along each axis"});
+  out.spacing = block.number("spacing", scene.grid.cell / scene.method.points_per_direction);
   const double share = scene.grid.cell / out.spacing;
   if (!(std::abs(share - std::round(share)) < 1e-6 * share) || share < 0.5 || share > kMostPerCell)
     block.fail(
         "spacing must be grid.cell divided by a whole number from 1 to 8: measures and the "
         "lattice count by cells; change one of the two");
-  out.smoothing = block.number(
-      {"smoothing", "1", Range::positive, out.smoothing, "smoothing length h over the spacing"});
+  out.smoothing = block.number("smoothing", out.smoothing);
   if (out.smoothing < kLeastSmoothing || out.smoothing > kMostSmoothing)
     block.fail("smoothing must be from 1 (26 neighbours in 3d) to 2 (250)");
-  out.zero_energy =
-      block.number({"zero_energy", "1", Range::fraction, out.zero_energy,
-                    "viscosity of pairs that holds modes the gradients do not see; 0: none"});
-  out.artificial_stress = block.number(
-      {"artificial_stress", "1", Range::fraction, out.artificial_stress,
-       "share of tension taken back between close particles; 0: none, 0.3: of the source"});
+  out.zero_energy = block.number("zero_energy", out.zero_energy);
+  out.artificial_stress = block.number("artificial_stress", out.artificial_stress);
   out.kernel = block.choice<SphKernel>("kernel",
                                        {{"cubic_spline", SphKernel::cubic_spline},
                                         {"wendland_c2", SphKernel::wendland_c2},

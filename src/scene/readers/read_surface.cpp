@@ -8,18 +8,13 @@ namespace krater::scene {
 
 namespace {
 
-constexpr ParameterInfo kMerge{"merge_vertices", "m", Range::non_negative, 0,
-                               "vertices nearer than this become one, 0: none"};
-constexpr ParameterInfo kClose{"close_holes", "m", Range::non_negative, 0,
-                               "holes smaller than this are closed, 0: none"};
-
 RepairOptions read_repair(const Node* node, Block& parent, Reading& reading) {
-  Block block{node, node ? node->path : "", parent.place(), reading.problems};
+  Block block{repair_block(), node, node ? node->path : "", parent.place(), reading.problems};
   RepairOptions repair;
-  repair.merge_vertices = block.number(kMerge);
+  repair.merge_vertices = block.number("merge_vertices");
   repair.drop_facets = block.flag("drop_facets", false);
   repair.orient = block.flag("orient", false);
-  repair.close_holes = block.number(kClose);
+  repair.close_holes = block.number("close_holes");
   parent.record("repair", block.finish());
   return repair;
 }

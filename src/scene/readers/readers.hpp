@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "krater/scene/scene.hpp"
+#include "scene/declarations/declarations.hpp"
 #include "scene/yaml/block.hpp"
 #include "scene/yaml/problems.hpp"
 #include "scene/yaml/tree.hpp"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "krater/scene/yaml/units.hpp"
 
@@ -31,8 +32,9 @@ std::string range_problem(double value, Range range) {
 
 }  // namespace
 
-Block::Block(const Node* node, std::string path, const Node& parent, Problems& problems)
-    : node_{node}, problems_{problems} {
+Block::Block(const BlockInfo& info, const Node* node, std::string path, const Node& parent,
+             Problems& problems)
+    : info_{info}, node_{node}, problems_{problems} {
   resolved_.kind = Node::Kind::map;
   const Node& source = node ? *node : parent;
   place_.file = source.file;
@@ -49,6 +51,7 @@ Block::Block(const Node* node, std::string path, const Node& parent, Problems& p
 }
 
 const Node* Block::find(const char* key) {
+  declared(info_, key);
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return node_ ? node_->find(key) : nullptr;
 }
@@ -66,7 +69,40 @@ const Node* Block::require(const char* key, const std::string& hint) {
   return node;
 }
 
-std::optional<double> Block::optional_number(const ParameterInfo& info) {
+void Block::require_fallback(const char* key, const std::string& fallback) const {
+  const std::string& text = declared(info_, key).fallback;
+  if (text == fallback || text == kMust || (!text.empty() && text[0] == kDynamic)) return;
+  throw std::logic_error("the default of " + std::string{key} + " of " + info_.name + " is " +
+                         fallback + ", declared is " + text);
+}
+
+void Block::require_words(const char* key, const std::vector<std::string>& words) const {
+  for (const Form& form : declared(info_, key).forms)
+    if (form.kind == Form::Kind::word && form.words.size() == words.size() &&
+        std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+          return std::find(form.words.begin(), form.words.end(), word) != form.words.end();
+        }))
+      return;
+  throw std::logic_error("the words of " + std::string{key} + " of " + info_.name +
+                         " are not the declared ones");
+}
+
+double Block::number(const char* key) { return number(parameter_of(info_, declared(info_, key))); }
+
+double Block::number(const char* key, double fallback) {
+  const KeyInfo& info = declared(info_, key);
+  if (info.fallback.empty() || info.fallback[0] != kDynamic)
+    require_fallback(key, fallback_text(fallback));
+  ParameterInfo parameter = parameter_of(info_, info);
+  parameter.fallback = fallback;
+  return number(parameter);
+}
+
+std::optional<double> Block::optional_number(const char* key) {
+  return given_number(parameter_of(info_, declared(info_, key)));
+}
+
+std::optional<double> Block::given_number(const ParameterInfo& info) {
   const Node* node = find(info.key);
   if (info.alias && node_) {
     if (const Node* other = node_->find(info.alias)) {
@@ -81,7 +117,7 @@ std::optional<double> Block::optional_number(const ParameterInfo& info) {
 }
 
 double Block::number(const ParameterInfo& info) {
-  const std::optional<double> given = optional_number(info);
+  const std::optional<double> given = given_number(info);
   const bool present = node_ && (node_->find(info.key) || (info.alias && node_->find(info.alias)));
   if (!present && std::isnan(info.fallback)) {
     fail("missing key '" + std::string{info.key} + "' (" + info.meaning +
@@ -93,7 +129,14 @@ double Block::number(const ParameterInfo& info) {
   return value;
 }
 
-int Block::integer(const char* key, int least, int most, int fallback) {
+int Block::integer(const char* key, int fallback) {
+  const KeyInfo& info = declared(info_, key);
+  const auto form = std::find_if(info.forms.begin(), info.forms.end(),
+                                 [](const Form& f) { return f.kind == Form::Kind::integer; });
+  if (form == info.forms.end())
+    throw std::logic_error(info.key + " of " + info_.name + " is not declared as an integer");
+  require_fallback(key, std::to_string(fallback));
+  const int least = form->least, most = form->most;
   int value = fallback;
   if (const Node* node = find(key)) {
     const std::optional<double> number = read_number(*node, "1", Range::any, problems_);
@@ -109,6 +152,7 @@ int Block::integer(const char* key, int least, int most, int fallback) {
 }
 
 bool Block::flag(const char* key, bool fallback) {
+  require_fallback(key, fallback ? "true" : "false");
   bool value = fallback;
   if (const Node* node = find(key)) {
     const bool yes = node->kind == Node::Kind::scalar && node->text == "true";

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file scene/yaml/block.hpp
-/// A block of keys while it is read. Every key asked for is known; whatever else the block holds is
-/// an error, and so is anything missing, mistyped or out of range. Each value read, given or by
-/// default, is recorded for resolved.yaml, which therefore cannot differ from what the program
-/// used.
+/// A block of keys while it is read. Only declared keys can be asked for, and their units, ranges,
+/// words and defaults are those of the declaration. Every key asked for is known; whatever else the
+/// block holds is an error, and so is anything missing, mistyped or out of range. Each value read,
+/// given or by default, is recorded for resolved.yaml, which therefore cannot differ from what the
+/// program used.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "krater/core/parameters.hpp"
+#include "scene/yaml/declaration.hpp"
 #include "scene/yaml/problems.hpp"
 #include "scene/yaml/tree.hpp"
 
@@ -24,7 +27,8 @@ using Words = std::vector<std::pair<const char*, T>>;
 class Block {
  public:
   /// `node` may be null (an absent block, all defaults) or `{}`; it must outlive the block.
-  Block(const Node* node, std::string path, const Node& parent, Problems& problems);
+  Block(const BlockInfo& info, const Node* node, std::string path, const Node& parent,
+        Problems& problems);
 
   bool given() const { return node_ != nullptr; }
   const Node& place() const { return place_; }  ///< for messages and `where`
@@ -34,15 +38,18 @@ class Block {
   const Node* find_block(const char* key);  ///< as find, but `key: none` is absence
   const Node* require(const char* key, const std::string& hint = "");
 
-  /// A number with the declared key (or its alias), unit, range and default.
-  double number(const ParameterInfo& info);
-  std::optional<double> optional_number(const ParameterInfo& info);  ///< the default is not used
-  int integer(const char* key, int least, int most, int fallback);
+  /// A number with its declared alias, unit, range and default.
+  double number(const char* key);
+  double number(const char* key, double fallback);  ///< a default that the scene decides
+  double number(const ParameterInfo& info);         ///< with another default, or another unit
+  std::optional<double> optional_number(const char* key);  ///< the default is not used
+  int integer(const char* key, int fallback);
   bool flag(const char* key, bool fallback);
   std::string text(const char* key, const std::string& fallback);
   template <class T>
   T choice(const char* key, const Words<T>& words, T fallback);
 
+  const BlockInfo& info() const { return info_; }
   void record(const std::string& key, Node value) { add_member(resolved_, key, std::move(value)); }
   void fail(const std::string& message) { fail(place_, message); }
   void fail(const Node& at, const std::string& message);
@@ -52,6 +59,12 @@ class Block {
   Node finish();
 
  private:
+  std::optional<double> given_number(const ParameterInfo& info);
+  /// A default of the code that is not the declared one is a mistake of the program.
+  void require_fallback(const char* key, const std::string& fallback) const;
+  void require_words(const char* key, const std::vector<std::string>& words) const;
+
+  const BlockInfo& info_;
   Node place_;  ///< file, line and path only
   const Node* node_;
   Problems& problems_;
@@ -85,18 +98,20 @@ void report_unknown(const Node& at, const std::string& what, std::string_view wo
 
 template <class T>
 T Block::choice(const char* key, const Words<T>& words, T fallback) {
+  std::vector<std::string> known;
+  for (const auto& [name, value] : words) {
+    known.emplace_back(name);
+    if (value == fallback) require_fallback(key, name);
+  }
+  require_words(key, known);
   T result = fallback;
   if (const Node* node = find(key)) {
     const std::optional<std::string> word = read_word(*node, problems_);
-    bool found = false;
-    std::vector<std::string> known;
-    for (const auto& [name, value] : words) {
-      known.emplace_back(name);
-      if (!word || *word != name) continue;
-      result = value;
-      found = true;
-    }
-    if (word && !found) report_unknown(*node, "value", *word, known, problems_);
+    const auto at = word ? std::find(known.begin(), known.end(), *word) : known.end();
+    if (at != known.end())
+      result = words[static_cast<std::size_t>(at - known.begin())].second;
+    else if (word)
+      report_unknown(*node, "value", *word, known, problems_);
   }
   for (const auto& [name, value] : words) {
     if (value == result) {

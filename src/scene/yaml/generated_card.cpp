@@ -3,19 +3,13 @@
 #include <iterator>
 
 #include "krater/core/parameters.hpp"
+#include "scene/declarations/declarations.hpp"
 #include "scene/yaml/block.hpp"
 #include "scene/yaml/cards.hpp"
 
 namespace krater::scene {
 
 namespace {
-
-constexpr ParameterInfo kStrength{
-    "fc", "Pa", Range::positive, kRequired, "unconfined strength", "compressive_strength"};
-constexpr ParameterInfo kDensity{"density", "kg/m^3", Range::positive, 2300.0,
-                                 "of ordinary concrete"};
-constexpr ParameterInfo kGrain{"aggregate_size", "m", Range::positive, 9.5e-3,
-                               "largest grain, for the fracture energy"};
 
 /// Laws that make all their constants of a strength and a grain.
 constexpr const char* kGenerated[] = {"karagozian_case", "cscm"};
@@ -41,9 +35,9 @@ Node generated_card(const Node& card, const std::string& path, Problems& problem
                  "model: karagozian_case}}");
     return made;
   }
-  Block block{&card.items[0], card.path + ".concrete", card, problems};
-  const double f = block.number(kStrength), density = block.number(kDensity),
-               grain = block.number(kGrain);
+  Block block{generated_card_block(), &card.items[0], card.path + ".concrete", card, problems};
+  const double f = block.number("fc"), density = block.number("density"),
+               grain = block.number("aggregate_size");
   const Node* model = block.require("model", "karagozian_case and cscm can be generated");
   const std::vector<std::string> known{std::begin(kGenerated), std::end(kGenerated)};
   if (model && std::count(known.begin(), known.end(), model->text) == 0)
