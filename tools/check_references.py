@@ -36,7 +36,7 @@ PLACE = re.compile(r"(?<![\w./<-])((?:tools|inputs|validation|tests|include|src|
                    r"|contact|kinematics|scene|output|simulation|measure|point_driver|app)/[\w/.*-]*\w)")
 
 # Written by runs, a user's (in capitals, or x), or another program's.
-NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point|study|gauge_NAME)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
+NOT_OURS = re.compile(r"(^|/)(resolved\.yaml|log\.txt|(history|point|study|gauge_\w+)\.csv|[A-Z]+\.\w+|x\.\w+)$|^examples/solid_mech/")
 
 
 class Checker:
@@ -106,10 +106,21 @@ class Checker:
         for match in LOST.finditer(text):
             self.error(path, line_of(text, match.start()), f"'{match.group(0)}': no such document in the tree")
 
+    def of_manual(self, path, text, name):
+        """A page that tools/manual makes (it stands in mkdocs.yml), or a file that a tutorial lets its reader write."""
+        pages = self.root / "src/manual"
+        if pages not in path.parents or not name:
+            return False
+        if f"Write this as `{name}`" in text:
+            return True
+        menu = (pages / "mkdocs.yml").read_text(encoding="utf-8")
+        return f": {name.rpartition('../')[2]}\n" in menu
+
     def check_files(self, path, text):
         for match in FILE.finditer(text):
-            if not NOT_OURS.search(match.group(1)) and not self.find(path, match.group(1)):
-                self.error(path, line_of(text, match.start()), f"no file '{match.group(1)}'")
+            name = match.group(1)
+            if not NOT_OURS.search(name) and not self.find(path, name) and not self.of_manual(path, text, name):
+                self.error(path, line_of(text, match.start()), f"no file '{name}'")
         for match in TEST.finditer(text):
             name = match.group(1).rstrip(".")
             if not self.find(path, name) and not self.find_test(name):
@@ -122,6 +133,8 @@ class Checker:
             if re.match(r"[a-z]+:", target):
                 continue
             at = path if not target else path.parent / target
+            if self.of_manual(path, text, target):
+                continue
             if not at.exists():
                 self.error(path, line_of(text, match.start()), f"link to '{target}', which does not exist")
             elif anchor and anchor not in anchors(at.read_text(encoding="utf-8")):
