@@ -149,7 +149,8 @@ class Fraction:
         self.inside = np.ones(len(x), bool)
         for axis, at, inside in planes:
             self.inside &= (x[:, axis] - at) * inside >= 0
-        self.phi = raster.smooth(raster.deposit(self.places, self.share))
+        self.weight = raster.smooth(raster.deposit(self.places, self.share))
+        self.phi = self.weight.copy()
         self.beyond = np.zeros(raster.shape, bool)  # where the images are, which are not drawn
         for axis, at, inside in planes:
             if axis != 1:
@@ -159,9 +160,10 @@ class Fraction:
     def mean(self, values):
         """Kernel-weighted mean, of the points whose value is a number."""
         values = values[self.index]
-        share = np.where(np.isfinite(values), self.share, 0)
+        good = np.isfinite(values)
+        share = np.where(good, self.share, 0)
         total = self.raster.smooth(self.raster.deposit(self.places, share * np.nan_to_num(values)))
-        weight = self.raster.smooth(self.raster.deposit(self.places, share))
+        weight = self.weight if good.all() else self.raster.smooth(self.raster.deposit(self.places, share))
         return total / np.maximum(weight, 1e-12)
 
     def isolated(self):
