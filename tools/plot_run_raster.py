@@ -110,9 +110,10 @@ class Raster:
         return (slice(None), outside) if k == 0 else (outside, slice(None))
 
     def at(self, values, places):
+        """Values at places, infinite beyond the raster."""
         column, row = np.rint(places).astype(int).T
         inside = (row >= 0) & (row < self.shape[0]) & (column >= 0) & (column < self.shape[1])
-        return np.where(inside, values[np.where(inside, row, 0), np.where(inside, column, 0)], 0.0)
+        return np.where(inside, values[np.where(inside, row, 0), np.where(inside, column, 0)], np.inf)
 
 
 def box_mean(values, reach):
@@ -166,9 +167,9 @@ class Fraction:
         weight = self.weight if good.all() else self.raster.smooth(self.raster.deposit(self.places, share))
         return total / np.maximum(weight, 1e-12)
 
-    def isolated(self):
-        """Entries of `index` and `places` where phi < 1/2: phi does not show these points."""
-        return np.flatnonzero((self.raster.at(self.phi, self.places) < HALF) & self.inside)
+    def isolated(self, least=HALF):
+        """Entries of `index` and `places` where phi is less (1/2: phi does not show these points)."""
+        return np.flatnonzero((self.raster.at(self.phi, self.places) < least) & self.inside)
 
 
 def stamp(u, v, reach, shape, order, key):

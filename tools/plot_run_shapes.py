@@ -11,7 +11,7 @@ from plot_run_elements import draw_elements, draw_surfaces
 from plot_run_raster import box_mean, stamp
 from plot_run_section import Section
 from run_reader import reference_of
-from units import scale_of
+from units import quantity, scale_of
 
 ABSENT = -1e300
 REFERENCE = "#d6006c"  # far from every colour of the maps below
@@ -90,16 +90,19 @@ class Spread:
 class Colouring:
     """One field with one scale for all pictures of a run."""
 
-    def __init__(self, run, numbers, field=None):
+    def __init__(self, run, numbers, field=None, span=None):
+        """`span`: texts of the least and the largest value, as "0", "20 GPa"; else all times of `numbers` set them."""
         self.field = field or next((name for name in FIRST_CHOICE if name in run.fields()), None)
         self.norm, self.factor, self.label, self.extend = colors.Normalize(0, 1), 1.0, "", "neither"
         self.map = colormaps["viridis"]
         if self.field is None:
             return
         spread = Spread(self.field, run, numbers)
-        low, high = spread.limits()
+        low, high = spread.limits() if span is None else (quantity(end, spread.unit) for end in span)
+        if not low < high:
+            raise ValueError(f"'{span[0]}' is not below '{span[1]}'")
         self.factor, text = scale_of(max(abs(low), abs(high)), spread.unit)
-        if spread.signed:
+        if spread.signed and low == -high:
             self.map = colormaps["RdBu_r"]
         self.norm = colors.Normalize(low / self.factor, high / self.factor)
         above, below = spread.high > high, spread.low < low

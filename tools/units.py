@@ -2,6 +2,7 @@
 """SI numbers in the units that people say them in: mm, g, MPa, km/s. Files stay SI; only what is shown is scaled."""
 
 import math
+import re
 
 # Unit -> [(from this size on, SI per shown unit, its name)], smallest first; below the first it serves too.
 LADDERS = {
@@ -44,17 +45,16 @@ def said(value, unit, digits=4):
 
 
 FACTORS = {"": 1, "s": 1, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "m": 1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6,
-           "µm": 1e-6, "km": 1e3}
+           "µm": 1e-6, "km": 1e3, "Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "m/s": 1, "km/s": 1e3, "K": 1, "kg/m^3": 1,
+           "g/cm^3": 1e3, "J/kg": 1, "kJ/kg": 1e3, "MJ/kg": 1e6, "1/s": 1, "J": 1, "kJ": 1e3}
+NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 
 
 def quantity(text, kind):
-    """SI value of "30 us", "30us" or "3e-5" (kind: "s" or "m"); ValueError when it is none."""
-    text = str(text).strip()
-    digits = text.rstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZµ").strip() if text else ""
-    if text and digits.endswith(("e", "E")):
-        digits = digits[:-1]
-    unit = text[len(digits):].strip()
-    if unit not in FACTORS or (unit and not unit.endswith(kind)):
-        raise ValueError(f"'{text}' is not a {'time' if kind == 's' else 'length'}: write it as "
-                         f"{'30 us' if kind == 's' else '5 mm'}")
-    return float(digits) * FACTORS[unit]
+    """SI value of "30 us", "30us" or "3e-5" (kind: the unit in SI, as s); ValueError when it is none."""
+    found = NUMBER.fullmatch(str(text))
+    if not found or found[2] not in FACTORS or (found[2] and not found[2].endswith(kind)
+                                                and (found[2], kind) != ("g/cm^3", "kg/m^3")):
+        example = {"s": "30 us", "m": "5 mm", "Pa": "2 GPa"}.get(kind, f"7 {kind}")
+        raise ValueError(f"'{text}' is no number of {kind}; write it as {example}")
+    return float(found[1]) * FACTORS[found[2]]
