@@ -2,7 +2,9 @@
 """Drawing bodies of elements for tools/plot_run: elements as they are, not volume fractions of points."""
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
 
 EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 FACES = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]  # seen from outside
@@ -46,6 +48,28 @@ def fill(axes, polygons, colours):
 def draw_elements(axes, run, body, colouring, mm):
     polygons, index = outlines(run, body)
     fill(axes, [np.asarray(polygon) / mm for polygon in polygons], colouring.of(body)[index])
+
+
+def paint(run, body, raster):
+    """Element in each pixel of a raster, -1 where none: polygons are filled with their numbers as colours."""
+    polygons, index = outlines(run, body)
+    if not len(polygons):
+        return np.full(raster.shape, -1)
+    rows, columns = raster.shape
+    figure = Figure(figsize=(columns, rows), dpi=1, facecolor=(0, 0, 0))
+    canvas = FigureCanvasAgg(figure)
+    axes = figure.add_axes([0, 0, 1, 1])
+    axes.set_axis_off()
+    left, right, low, high = raster.extent(1.0)
+    axes.set_xlim(left, right)
+    axes.set_ylim(low, high)
+    number = index + 1
+    colours = np.stack([number >> 16 & 255, number >> 8 & 255, number & 255], -1) / 255
+    axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors="face", linewidths=36,  # half a pixel
+                                       antialiased=False))
+    canvas.draw()
+    red, green, blue = np.asarray(canvas.buffer_rgba())[::-1, :, :3].astype(int).transpose(2, 0, 1)
+    return (red << 16) + (green << 8) + blue - 1
 
 
 def exposed(cells):

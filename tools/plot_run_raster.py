@@ -110,9 +110,10 @@ class Raster:
         return (slice(None), outside) if k == 0 else (outside, slice(None))
 
     def at(self, values, places):
+        """Values at places, infinite beyond the raster."""
         column, row = np.rint(places).astype(int).T
         inside = (row >= 0) & (row < self.shape[0]) & (column >= 0) & (column < self.shape[1])
-        return np.where(inside, values[np.where(inside, row, 0), np.where(inside, column, 0)], 0.0)
+        return np.where(inside, values[np.where(inside, row, 0), np.where(inside, column, 0)], np.inf)
 
 
 def box_mean(values, reach):
@@ -149,7 +150,8 @@ class Fraction:
         self.inside = np.ones(len(x), bool)
         for axis, at, inside in planes:
             self.inside &= (x[:, axis] - at) * inside >= 0
-        self.phi = raster.smooth(raster.deposit(self.places, self.share))
+        self.weight = raster.smooth(raster.deposit(self.places, self.share))
+        self.phi = self.weight.copy()
         self.beyond = np.zeros(raster.shape, bool)  # where the images are, which are not drawn
         for axis, at, inside in planes:
             if axis != 1:
@@ -159,14 +161,15 @@ class Fraction:
     def mean(self, values):
         """Kernel-weighted mean, of the points whose value is a number."""
         values = values[self.index]
-        share = np.where(np.isfinite(values), self.share, 0)
+        good = np.isfinite(values)
+        share = np.where(good, self.share, 0)
         total = self.raster.smooth(self.raster.deposit(self.places, share * np.nan_to_num(values)))
-        weight = self.raster.smooth(self.raster.deposit(self.places, share))
+        weight = self.weight if good.all() else self.raster.smooth(self.raster.deposit(self.places, share))
         return total / np.maximum(weight, 1e-12)
 
-    def isolated(self):
-        """Entries of `index` and `places` where phi < 1/2: phi does not show these points."""
-        return np.flatnonzero((self.raster.at(self.phi, self.places) < HALF) & self.inside)
+    def isolated(self, least=HALF):
+        """Entries of `index` and `places` where phi is less (1/2: phi does not show these points)."""
+        return np.flatnonzero((self.raster.at(self.phi, self.places) < least) & self.inside)
 
 
 def stamp(u, v, reach, shape, order, key):

@@ -1,181 +1,115 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reading a results folder and drawing the shapes of its bodies, for tools/plot_run."""
+"""Drawing the shapes of the bodies of a run, for tools/plot_run."""
 
-import csv
-import json
 import math
-import os
-import sys
 import textwrap
 
-import h5py
 import numpy as np
-from matplotlib import cm, colormaps, colors, patheffects
+from matplotlib import cm, colormaps, colors, patches, patheffects
 
 from plot_run_elements import draw_elements, draw_surfaces
-import plot_run_levels as levels
-from plot_run_raster import HALF, Fraction, Raster, box_mean, closed_planes, stamp
+from plot_run_raster import box_mean, stamp
+from plot_run_section import Section
+from run_reader import reference_of
+from units import quantity, scale_of
 
 ABSENT = -1e300
 REFERENCE = "#d6006c"  # far from every colour of the maps below
-SCALES = [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n")]
 
 
-# ------------------------------------------------------------------------------------------ reading
-
-class Body:
-    """Points of a body in the plane of the picture (2D frames and sections) or in space."""
-
-    def __init__(self, name, group, summary):
-        self.name = name
-        x = group["coordinates"][()]
-        self.kept = np.isfinite(x).all(axis=1)  # a broken run may hold points that are nowhere
-        self.x = x[self.kept]
-        self.fields, self.parts = group, None  # parts: of which point each is one
-        self.side = self.spacing(summary)  # of the square or cube that each point stands for
-        self.volume = self.volumes(frame_of(summary, self.x))
-        self.flat = frame_of(summary, self.x) != "3d"
-        self.level = np.round(self.values("level")).astype(int) if "level" in group else np.zeros(len(self.x), int)
-        self.whole = self.x  # places of the points, whatever is drawn of them
-        self.nodes = group["nodes"]["coordinates"][()] if "nodes" in group else None
-        self.cells = group["connectivity"][()][self.kept] if "nodes" in group else None  # corners of each element
-
-    def volumes(self, frame):
-        """Of a full ring in axisymmetry, per length in plane strain."""
-        if "mass" in self.fields and "density" in self.fields:
-            return self.values("mass") / self.values("density")
-        return {"axisymmetric": 2 * math.pi * self.x[:, 0] * self.side ** 2,
-                "3d": self.side ** 3}.get(frame, self.side ** 2)
-
-    def spacing(self, summary):
-        """From the volumes of the points; else half a cell; else the box of the body shared out."""
-        if "mass" not in self.fields or "density" not in self.fields:
-            side = 0.5 * float(summary.get("cell") or 0)
-            if not side:
-                widths = np.ptp(self.x, axis=0)
-                widths = widths[widths > 0]
-                side = (np.prod(widths) / len(self.x)) ** (1 / len(widths)) if len(widths) else 1e-3
-            return np.full(len(self.x), side)
-        volume = self.values("mass") / self.values("density")
-        frame = frame_of(summary, self.x)
-        if frame == "3d":
-            return np.cbrt(volume)
-        if frame == "axisymmetric":  # mass of the full ring
-            volume = volume / (2 * math.pi * np.maximum(self.x[:, 0], 1e-300))
-        return np.sqrt(volume)
-
-    def values(self, field):
-        if field not in self.fields:
-            return None
-        values = self.fields[field][()][self.kept]
-        return values if self.parts is None else values[self.parts]
+SIGNED = ("pressure", "stress_", "velocity_", "deviatoric_stress_", "strain_")  # white at zero
+FIRST_CHOICE = ("plastic_strain", "pressure", "density", "temperature")
+BODY_COLOURS = ["#4c78a8", "#f58518", "#54a24b", "#b279a2", "#e45756", "#72b7b2", "#eeca3b", "#9d755d", "#79706e"]
+MOST_NAMES = 11  # in a legend
 
 
-def frame_of(summary, x):
-    return str(summary.get("frame") or ("3d" if np.abs(x[:, 1]).max(initial=0) > 0 else "plane_strain"))
+class BodyColours:
+    """Every body in a colour of its own."""
+
+    field = "body"
+
+    def __init__(self, names):
+        self.names = names
+
+    def colour(self, name):
+        return BODY_COLOURS[self.names.index(name) % len(BODY_COLOURS)]
+
+    def values(self, body):
+        return np.full(len(body.x), float(self.names.index(body.name)))
+
+    def rgba(self, values):
+        table = np.array([colors.to_rgba(BODY_COLOURS[n % len(BODY_COLOURS)]) for n in range(len(self.names))])
+        return table[np.clip(np.rint(values).astype(int), 0, len(table) - 1)]
+
+    def of(self, body):
+        return self.rgba(self.values(body))
+
+    def handles(self, label=str):
+        """For a legend."""
+        found = [patches.Patch(color=self.colour(name), label=label(name)) for name in self.names[:MOST_NAMES]]
+        if len(self.names) > MOST_NAMES:
+            found.append(patches.Patch(color="none", label=f"and {len(self.names) - MOST_NAMES} more bodies"))
+        return found
 
 
-class Run:
-    def __init__(self, folder):
-        self.folder = folder
-        try:
-            with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-                self.summary = json.load(file)
-        except (OSError, ValueError) as error:
-            print(f"plot_run: no summary ({error})", file=sys.stderr)
-            self.summary = {}
-        self.file = h5py.File(os.path.join(folder, "frames.h5"), "r")
-        self.numbers = sorted(self.file["frames"])
-        if not self.numbers:
-            raise OSError("no frame in frames.h5")
-        if "frame" not in self.summary and "frame_of_reference" in self.file.attrs:
-            self.summary["frame"] = self.file.attrs["frame_of_reference"]
-        self.names = sorted({name for number in (self.numbers[0], self.numbers[-1]) for name in self.file["frames"][number]})
-        start = [b.x for b in self.bodies(self.numbers[0])]
-        x = np.concatenate(start) if start else np.zeros((0, 3))
-        self.frame = frame_of(self.summary, x)
-        self.summary["frame"] = self.frame
-        self.history = read_history(os.path.join(folder, "history.csv"))
-        self.planes = closed_planes(folder)
-        y = x[:, 1]
-        through = len(y) == 0 or y.min() <= 0 <= y.max() or (1, 0.0, 1) in self.planes
-        self.section_y = 0.0 if through else 0.5 * (y.min() + y.max())
+class Spread:
+    """What the values of a field span over frames."""
 
-    def time(self, number):
-        return float(self.file["frames"][number].attrs["time"])
+    def __init__(self, field, run=None, numbers=()):
+        self.field, self.unit = field, ""
+        self.low, self.high, self.top = math.inf, -math.inf, 0.0
+        for number in numbers:
+            for body in run.bodies(number):
+                self.add(body)
 
-    def bodies(self, number):
-        group = self.file["frames"][number]
-        bodies = [Body(name, group[name], self.summary) for name in group if len(group[name]["id"])]
-        bodies = [body for body in bodies if len(body.x)]
-        self.finest = levels.spread(bodies)
-        return bodies
+    def add(self, body):
+        values = body.values(self.field)
+        if values is None:
+            return
+        self.unit = str(body.unit(self.field))
+        values = values[np.isfinite(values)]
+        if len(values):
+            self.low, self.high = min(self.low, float(values.min())), max(self.high, float(values.max()))
+            self.top = max(self.top, float(np.quantile(np.abs(values), 0.999)))
 
-    def title(self):
-        return str(self.summary.get("title") or os.path.basename(os.path.abspath(self.folder)))
+    @property
+    def signed(self):
+        return self.field.startswith(SIGNED) and self.low < 0
 
-
-def read_history(path):
-    """name -> (unit, values); values are numbers, or texts where a column has any."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except OSError:
-        return {}
-    columns = {}
-    whole = [row for row in rows[1:] if len(row) == len(rows[0])]
-    for k, title in enumerate(rows[0] if whole else []):
-        name, _, unit = title.partition(" [")
-        texts = [row[k] for row in whole]
-        try:
-            columns[name] = (unit.rstrip("]"), np.array([float(text) for text in texts]))
-        except ValueError:
-            columns[name] = (unit.rstrip("]"), np.array(texts))
-    return columns
-
-
-def scale_of(largest, unit):
-    """Divisor and unit that make `largest` readable: 3.1e8 Pa -> 1e6, MPa."""
-    if unit in ("", "1") or not largest > 0 or not math.isfinite(largest):
-        return 1.0, ""
-    for factor, prefix in SCALES:
-        if largest >= factor * (0.1 if unit == "m" and prefix == "m" else 1):
-            if unit == "m" and prefix in ("k", "M", "G"):
-                continue
-            return factor, prefix + unit
-    return 1.0, unit
+    def limits(self):
+        """Where the scale of a picture begins and ends: single points beyond it do not set it."""
+        if self.low > self.high:
+            return 0.0, 1.0
+        if self.signed:
+            return -self.top, self.top
+        if self.low >= 0 and self.low < 0.5 * self.high:
+            return 0.0, max(min(self.high, 1.25 * self.top), 1e-12)
+        return self.low, max(self.high, self.low + 1e-300)
 
 
 class Colouring:
     """One field with one scale for all pictures of a run."""
 
-    def __init__(self, run, numbers):
-        last = [b for n in numbers for b in run.bodies(n)]
-        names = ("plastic_strain", "pressure", "density", "temperature")
-        self.field = next((n for n in names if any(n in b.fields for b in last)), None)
+    def __init__(self, run, numbers, field=None, span=None):
+        """`span`: texts of the least and the largest value, as "0", "20 GPa"; else all times of `numbers` set them."""
+        self.field = field or next((name for name in FIRST_CHOICE if name in run.fields()), None)
         self.norm, self.factor, self.label, self.extend = colors.Normalize(0, 1), 1.0, "", "neither"
         self.map = colormaps["viridis"]
         if self.field is None:
             return
-        arrays = [b.values(self.field) for n in numbers for b in run.bodies(n) if self.field in b.fields]
-        values = np.concatenate(arrays)
-        values = values[np.isfinite(values)]
-        low, high = (values.min(), values.max()) if len(values) else (0.0, 1.0)
-        top = np.quantile(np.abs(values), 0.999) if len(values) else 1.0
-        unit = next(b.fields[self.field].attrs.get("unit", "") for b in last if self.field in b.fields)
-        self.factor, text = scale_of(max(abs(low), abs(high)), str(unit))
-        if self.field == "pressure":
+        spread = Spread(self.field, run, numbers)
+        low, high = spread.limits() if span is None else (quantity(end, spread.unit) for end in span)
+        if not low < high:
+            raise ValueError(f"'{span[0]}' is not below '{span[1]}'")
+        self.factor, text = scale_of(max(abs(low), abs(high)), spread.unit)
+        if spread.signed and low == -high:
             self.map = colormaps["RdBu_r"]
-            self.norm = colors.Normalize(-top / self.factor, top / self.factor)
-        elif self.field == "plastic_strain":
-            self.norm = colors.Normalize(0, max(min(high, 1.25 * top), 1e-12))
-        else:
-            self.norm = colors.Normalize(low / self.factor, max(high, low + 1e-300) / self.factor)
-        above, below = high / self.factor > self.norm.vmax, low / self.factor < self.norm.vmin
+        self.norm = colors.Normalize(low / self.factor, high / self.factor)
+        above, below = spread.high > high, spread.low < low
         self.extend = ("both" if below else "max") if above else ("min" if below else "neither")
         self.label = self.field.replace("_", " ") + (f" [{text}]" if text else "")
         if above:
-            self.label += f", largest {high / self.factor:.3g}"
+            self.label += f", largest {spread.high / self.factor:.3g}"
 
     def values(self, body):
         """Of the points; ABSENT in a body without the field."""
@@ -202,8 +136,7 @@ class Colouring:
 # ------------------------------------------------------------------------------------------ shapes
 
 def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
-    """Elements as they are; points: material where the volume fraction of a body is above 1/2, coloured by the mean
-    about each pixel; points that it does not show, or whose value is no number, as squares of their own area."""
+    """Elements as they are; points where there is material (plot_run_section), debris no smaller than three pixels."""
     for body in bodies:
         if body.cells is not None:
             draw_elements(axes, run, body, colouring, mm)
@@ -211,30 +144,10 @@ def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
     bodies = [body for body in bodies if body.cells is None]
     if not bodies:
         return
-    cell = float(run.summary.get("cell") or 2 * np.median(bodies[0].side)) / 2 ** run.finest
-    raster = Raster(box * mm, cell, pixels)
-    image, most = np.ones(raster.shape + (4,)), np.full(raster.shape, HALF)
-    for body in bodies:
-        body_in = Fraction(raster, run.frame, body.x, body.volume, run.planes, run.section_y)
-        values = colouring.values(body)
-        shown = body_in.phi >= most
-        most[shown] = body_in.phi[shown]
-        image[shown] = colouring.rgba(body_in.mean(values))[shown]
-        alone = np.union1d(body_in.isolated(), np.flatnonzero(~np.isfinite(values[body_in.index])))
-        if run.frame == "3d":  # of those beside the plane, the nearest
-            alone = alone[np.abs(body.x[body_in.index[alone], 1] - run.section_y) <= 0.5 * raster.h]
-        if len(alone):
-            u, v = (body_in.places[alone] + 0.5).T
-            half = np.maximum(0.5 * body.side[body_in.index[alone]] / raster.pixel, 0.5)
-            nearest, away = stamp(u, v, np.ceil(half), raster.shape, np.arange(len(alone)),
-                                  lambda points, rows, columns, u=u, v=v, half=half: np.maximum(
-                                      np.abs(columns + 0.5 - u[points]), np.abs(rows + 0.5 - v[points]))
-                                  / half[points])
-            bad = ~np.isfinite(values[body_in.index[alone]])
-            marked = (away <= 1) & ((most <= HALF) | bad[nearest])
-            marked &= ~body_in.beyond
-            image[marked] = colouring.rgba(values[body_in.index[alone]])[nearest[marked]]
-    axes.imshow(image, origin="lower", extent=raster.extent(mm), interpolation="antialiased")
+    section = Section(run, bodies, box * mm, pixels, [colouring.values], least=3.0)
+    image, there = np.ones(section.cover.shape + (4,)), section.which >= 0
+    image[there] = colouring.rgba(section.values[0][there])
+    axes.imshow(image, origin="lower", extent=section.raster.extent(mm), interpolation="antialiased")
 
 
 def limits(run, numbers, mm):
@@ -301,15 +214,6 @@ def position_of(measure):
     if isinstance(at, dict):
         at = next(iter(at.values()), None)
     return at if isinstance(at, (int, float)) else None
-
-
-def reference_of(measure):
-    """Value and source of a measure's reference; value None when there is none."""
-    reference = measure.get("reference")
-    if not isinstance(reference, dict):
-        reference = {"value": reference}
-    value = reference.get("value")
-    return (value if isinstance(value, (int, float)) else None), str(reference.get("source") or "reference")
 
 
 def line(axes, x, z, reference=False, style="-", **options):

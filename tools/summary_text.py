@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers and tables as the tools print them."""
 
+import math
+
+from units import scale_of
+
 
 def number(value, digits=5):
     if isinstance(value, bool) or value is None:
@@ -20,5 +24,16 @@ def table(rows, right=(1, 3, 4)):
     return "\n".join(lines)
 
 
-# Lengths and times are easier to read in mm and us; the file itself is SI.
-READABLE = {"m": (1e3, "mm"), "s": (1e6, "us")}
+def shown(values, unit):
+    """Texts of values of one unit and that unit's name, as people say them: mm, us, g, MPa, km/s. The files are SI."""
+    numbers = [abs(value) for value in values if isinstance(value, (int, float)) and math.isfinite(value)]
+    divisor, name = scale_of(max(numbers, default=0), unit)
+    return [number(value / divisor) if isinstance(value, (int, float)) else number(value) for value in values], \
+        divisor, plain(name)
+
+
+def plain(text):
+    """For terminals that know no more than ASCII."""
+    for sign, word in (("µ", "u"), ("°", "degree"), ("³", "^3"), ("²", "^2")):
+        text = text.replace(sign, word)
+    return text

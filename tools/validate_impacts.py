@@ -9,7 +9,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import colormaps, colors  # noqa: E402
 
-from plot_run_shapes import Colouring, Run as Shapes, draw_section, limits, view_from_outside  # noqa: E402
+from plot_run_shapes import Colouring, draw_section, limits, view_from_outside  # noqa: E402
+from run_reader import Run as Shapes  # noqa: E402
 
 COST_TITLES = ["points", "steps", "energy error %", "change of momentum", "memory MB", "wall time s (threads)"]
 

@@ -282,7 +282,8 @@ def order(values, ratio=2.0):
 def drawn(run, number):
     """(raster, [(body, its volume fraction)]) of a frame."""
     from plot_run_raster import Fraction, Raster
-    from plot_run_shapes import Run as Shapes, limits
+    from plot_run_shapes import limits
+    from run_reader import Run as Shapes
     shapes = Shapes(run.folder)
     number = shapes.numbers[number]
     raster = Raster(limits(shapes, [number], 1.0), float(run.summary["cell"]), 1000)
