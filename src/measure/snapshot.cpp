@@ -103,6 +103,7 @@ void add_levels(const Simulation& sim, Json& j) {
   for (int level = 0; level <= sim.scene().grid.finest(); ++level)
     counts[std::to_string(level)] = Json::of(static_cast<std::int64_t>(points_at(sim, level)));
   j["split_points"] = Json::of(static_cast<std::int64_t>(sim.audit().split_points));
+  j["merged_points"] = Json::of(static_cast<std::int64_t>(sim.audit().merged_points));
   j["level_heat"] = Json::of(sim.audit().level_heat);
 }
 

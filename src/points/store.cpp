@@ -13,6 +13,19 @@ void PointStore::copy(int from, int to) {
   for (int k = 0; k < stride_; k += kLanes) at(k, to) = at(k, from);
 }
 
+void PointStore::remove(const std::vector<int>& holes) {
+  std::size_t first = 0, last = holes.size();
+  while (first < last) {
+    if (holes[last - 1] == count_ - 1) {
+      --last;
+    } else {
+      copy(count_ - 1, holes[first]);
+      ++first;
+    }
+    --count_;
+  }
+}
+
 void PointStore::resize(int count) {
   count_ = count;
   records_.reserve(size());

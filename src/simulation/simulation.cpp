@@ -296,8 +296,10 @@ void Simulation::step(double until) {
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
-  if (refinement_ && refinement_->moves() && steps() % kRegridSteps == 0)
-    step_->regrid(refinement_->find(grid_));
+  if (refinement_ && steps() % kRegridSteps == 0) {
+    if (refinement_->moves()) step_->regrid(refinement_->find(grid_));
+    if (scene_.grid.merge) step_->merge();
+  }
   find_limit();
   if (mesh_) adopt_converted();
   try {

@@ -83,6 +83,7 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   for (const int s : sets) {
     if (s < first_points()) continue;
     const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
+    if (patch.points.empty()) continue;
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
     keys.push_back(patch.key.level);
     keys.push_back(patch.points.count());

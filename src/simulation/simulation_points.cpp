@@ -112,6 +112,10 @@ void Simulation::place_points() {
     sizes.push_back({body->material().density, body->options().points.per_direction,
                      scene_.frame == Frame::axisymmetric, scene_.method.stagger, 0});
   step_->set_sizes(std::move(sizes));
+  std::vector<MergePlan> plans;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    plans.push_back(plan_merging(bodies_[b]->layout(), kernel_data_[b].columns));
+  step_->set_merge_plans(std::move(plans));
   double smallest = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (bodies_[b]->options().material_points()) {

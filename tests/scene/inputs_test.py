@@ -22,6 +22,8 @@ SCENES = {
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "round_nosed_rod": {"frames": ("axisymmetric",), "end": "1 us", "coarse": None},
     # 3d: for tools/validate.
+    "hypervelocity/crater": {"frames": ("axisymmetric",), "end": "0.5 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "hypervelocity/hole": {"frames": ("axisymmetric",), "end": "0.5 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "snl/penetration": {"frames": ("axisymmetric",), "end": "20 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "snl/slab": {"frames": ("axisymmetric",), "end": "10 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "snl/three_kinematics": {"frames": ("3d",), "end": "20 us", "coarse": "25.4 mm"},
@@ -72,7 +74,7 @@ def answers(path, said):
 
 
 with Folder():
-    files = sorted([*(ROOT / "inputs").glob("*.yaml"), *(ROOT / "inputs" / "snl").glob("*.yaml")])
+    files = sorted(path for folder in ("", "hypervelocity", "snl") for path in (ROOT / "inputs" / folder).glob("*.yaml"))
     files = [path for path in files if not re.search(r"^study:", path.read_text(encoding="utf-8"), re.MULTILINE)]
     check(len(files) >= 4, f"{len(files)} scenes in inputs/")
     readme = (ROOT / "README.md").read_text(encoding="utf-8")

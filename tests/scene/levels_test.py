@@ -62,6 +62,23 @@ bodies:
 output: {{frames: 6 us}}
 """
 
+# A ball passes a slab that swings; fine cells go with the ball and through the slab.
+PASSING = f"""
+frame: plane_strain
+grid:
+  cell: 1 mm
+  box: {{min: [0, 0], max: [112 mm, 32 mm]}}
+  refine: [{{follow: ball, margin: 10 mm, level: 1}}]
+time: {{end: 80 us}}
+materials: {{metal: {METAL}}}
+bodies:
+  slab: {{material: metal, shape: {{box: {{min: [4 mm, -1, 8 mm], max: [52 mm, 1, 16 mm]}}}},
+         velocity: ["5*sin(200*z)", "10*cos(130.9*(x-0.004))"]}}
+  ball: {{material: metal, shape: {{cylinder: {{radius: 2 mm, height: 1, axis: y, base: [4 mm, -0.5, 22 mm]}}}},
+         velocity: [1200 m/s, 0]}}
+output: {{frames: 40 us}}
+"""
+
 ROD = """
 frame: axisymmetric
 grid:
@@ -119,6 +136,47 @@ def pulses():
     on = np.abs(v[np.abs(z - 310) < 32]).max() / half
     check(back < 0.01, "less than 1 % comes back", back)
     check(on > 0.8, "and the rest passes, but for what coarse cells disperse", on)
+
+
+def merging():
+    """Fine cells go with a ball; what they leave behind becomes coarse points again where the scene asks for it."""
+    pathlib.Path("passing.yaml").write_text(PASSING)
+    asked = "grid.merge=true"
+    found = {}
+    for name, more in {"kept": [], "merged": [asked]}.items():
+        done = run(name, *more, scene="passing.yaml")
+        if not check(done.returncode == 0, f"fine cells pass a slab, {name}", done.text[-300:]):
+            return
+        audit = summary(name)["audit"]
+        check(abs(audit["energy_residual"]) < 1e-13 * audit["initial_energy"], f"energy closes, {name}",
+              audit["energy_residual"])
+        with h5py.File(f"{name}/frames/000002.h5") as f:
+            m, v = f["slab/mass"][:], f["slab/velocity"][:]
+            ids = f["slab/id"][:]
+        check(len(set(ids)) == len(ids), f"every point has a number of its own, {name}", "")
+        found[name] = len(m), audit["merged_points"], *(m[:, None] * v).sum(0)[[0, 2]], 0.5 * (m[:, None] * v * v).sum()
+    start = 48 * 8 * 4
+    check(found["kept"][0] > 3 * start and found["kept"][1] == 0, "finer cells leave small points behind", found)
+    check(found["merged"][0] < 1.1 * start and found["merged"][1] > start, "merged, they are hardly more than at the start",
+          found)
+    kept, merged = found["kept"], found["merged"]
+    scale = (2 * kept[4] * 2700 * 48e-3 * 8e-3) ** 0.5
+    check(max(abs(kept[k] - merged[k]) for k in (2, 3)) < 1e-9 * scale, "with the same momentum", found)
+    check(abs(merged[4] / kept[4] - 1) < 0.01, "and hardly less motion", found)
+
+    run("three", asked, scene="passing.yaml", threads=3)
+    check(not differences("merged", "three"), "the same bits on 1 and 3 threads", differences("merged", "three"))
+    run("parts", asked, "time.end=40 us", scene="passing.yaml")
+    done = run("parts", asked, scene="passing.yaml", extra=["--restart", "parts/checkpoint.h5"])
+    other = [d for d in differences("merged", "parts") if "summary" not in d]
+    check(done.returncode == 0 and not other, "the same bits across a restart", other or done.text[-300:])
+    run("awake", asked, "method.dormant_blocks=false", scene="passing.yaml")
+    other = [d for d in differences("merged", "awake") if "summary" not in d and "resolved" not in d]
+    check(not other, "the same bits with and without dormant blocks", other)
+    for rules in ("none", "[]"):
+        refused = run("alone", f"grid.refine={rules}", asked, scene="passing.yaml")
+        check(refused.returncode == 2 and "grid.merge" in refused.text and "grid.refine" in refused.text,
+              f"nothing merges on one level, refine: {rules}", refused.text[-300:])
 
 
 def shock():
@@ -215,6 +273,7 @@ def main():
         os.symlink(pathlib.Path(os.environ["KRATER_SOURCE_DIR"], "inputs", "materials"), "materials")
         pathlib.Path("rod.yaml").write_text(ROD)
         pulses()
+        merging()
         shock()
         contact()
         rod("rod.yaml")

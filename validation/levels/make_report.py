@@ -209,10 +209,13 @@ def oblique(study):
 def followed(study):
     """Fine cells where the pressure of the pulse is, which leaves the region of fine cells it starts in."""
     rows = []
-    look = "{where: {field: pressure, above: 1e-8}, level: 1}"
+    look = "{{where: {{field: pressure, above: {}}}, level: 1}}"
     start = "{region: {box: {min: [0, 100], max: [8, 236]}}, level: 1}"
     for name, cell, refine in (("fine cells everywhere", 1, ""), ("coarse cells everywhere", 2, ""),
-                               ("fine cells that follow it", 2, f"  refine: [{start}, {look}]\n")):
+                               ("fine cells that follow it", 2, f"  refine: [{start}, {look.format(1e-8)}]\n"),
+                               ("the same, closer to it", 2, f"  refine: [{start}, {look.format(1e-6)}]\n"),
+                               ("the same, merged behind it", 2,
+                                f"  refine: [{start}, {look.format(1e-6)}]\n  merge: true\n")):
         text = BAR.format(cell=cell, length=480, refine=refine, end=220, start=180, width=12)
         run = study.run_text("followed_" + name.replace(" ", "_"), text, 2)
         if not run:
@@ -247,6 +250,8 @@ def discs(study):
     rows = []
     for name, refine, more in (("coarse cells everywhere", "", []), ("fine cells everywhere", "", ["grid.cell=0.5 mm"]),
                                ("half of it in fine cells", rule(("0", "-24 mm"), ("24 mm", "24 mm")), []),
+                               ("half of it in fine cells, merged",
+                                rule(("0", "-24 mm"), ("24 mm", "24 mm")) + "  merge: true\n", []),
                                ("a box of fine cells in its middle", rule(("-4 mm", "-4 mm"), ("4 mm", "4 mm")), []),
                                ("three levels", rule(("0", "-24 mm"), ("24 mm", "24 mm"), 2), [])):
         run = study.run_text("disc_" + name.replace(" ", "_"), DISC.format(refine=refine), 5, more)
@@ -365,7 +370,11 @@ def impacts(study):
                           "0.5 mm, level 1 in r < 20 mm":
                               ["grid.cell=0.5 mm", REGION.format("[0, -140 mm]", "[20 mm, 60 mm]", 1)],
                           "0.5 mm, level 1 in r < 20, z > -12 mm":
-                              ["grid.cell=0.5 mm", REGION.format("[0, -12 mm]", "[20 mm, 60 mm]", 1)]}),
+                              ["grid.cell=0.5 mm", REGION.format("[0, -12 mm]", "[20 mm, 60 mm]", 1)],
+                          "0.5 mm, level 1 in r < 16, -6 < z < 12 mm":
+                              ["grid.cell=0.5 mm", REGION.format("[0, -6 mm]", "[16 mm, 12 mm]", 1)],
+                          "the same, merged":
+                              ["grid.cell=0.5 mm", REGION.format("[0, -6 mm]", "[16 mm, 12 mm]", 1), "grid.merge=true"]}),
         "spear_plate": ("Spear's cylinder on a plate at 970 m/s, 3D, a quarter, to 30 µs", 0.2, "residual_velocity",
                         {"uniform 1.015 mm": ["grid.cell=1.015 mm"], "uniform 2.03 mm": [],
                          "2.03 mm, level 1 within 24 mm":

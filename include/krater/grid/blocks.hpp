@@ -101,6 +101,7 @@ struct alignas(128) Patch {
   bool owns_cells = false;      ///< the first fluid of its field in its block
   bool settled = false;         ///< the last gather found everything at rest and changed nothing
   bool steady = false;          ///< no point came or left in the last step
+  bool awaited = false;         ///< points were to come soon when patches were made last
   PatchLinks links;
   Outbox outbox;
   PatchResult result;
@@ -170,6 +171,11 @@ class BlockGrid {
   Patch& add_patch(const BlockKey& key, int body, int stride);
   /// Drop the patches of a body, or all of them; rebuild() afterwards.
   void drop_patches(int body = -1);
+  /// Or those of which `drop` is true.
+  template <class Drop>
+  void drop_patches_if(const Drop& drop) {
+    std::erase_if(patches_, drop);
+  }
   /// Node blocks whose volumes contact reads near finer cells are there too. Before rebuild().
   void keep_shadows() { shadows_ = true; }
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().

@@ -70,6 +70,7 @@ struct Audit {
   double conversion_heat = 0;   ///< of the motion of elements that became points [J]
   double level_heat = 0;        ///< of points that changed the level of their cells [J]
   double split_points = 0;      ///< points that splitting made
+  double merged_points = 0;     ///< points that merging took away
   double most_folded = 0;       ///< folded elements, the most at a row of the history
 
   /// Heat of a step by its causes [J]; `given` and `taken` by the cells, contact and walls
@@ -141,6 +142,32 @@ struct Audit {
   }
 };
 
+/// The later part of them.
+template <class Account, class Visit>
+constexpr void for_each_event(Account& a, const Visit& visit) {
+  visit("sound_speed_floors", a.sound_speed_floors);
+  visit("hugoniot_poles", a.hugoniot_poles);
+  visit("reflections", a.reflections);
+  visit("retries", a.retries);
+  visit("penetrations", a.penetrations);
+  visit("deepest_reflection", a.deepest_reflection);
+  visit("failures", a.failures);
+  visit("snap_backs", a.snap_backs);
+  visit("spalls", a.spalls);
+  visit("new_references", a.new_references);
+  visit("contact_pairs", a.contact_pairs);
+  visit("wall_columns", a.wall_columns);
+  visit("step_external", a.step_external);
+  visit("peak_energy", a.peak_energy);
+  visit("peak_energy_time", a.peak_energy_time);
+  visit("stabilisation", a.stabilisation);
+  visit("conversion_heat", a.conversion_heat);
+  visit("level_heat", a.level_heat);
+  visit("split_points", a.split_points);
+  visit("merged_points", a.merged_points);
+  visit("most_folded", a.most_folded);
+}
+
 /// visit(name, entry) of all entries in the order of their memory: what a checkpoint keeps, and
 /// what must be a number.
 template <class Account, class Visit>
@@ -183,26 +210,7 @@ constexpr void for_each_entry(Account& a, const Visit& visit) {
   visit("plastic_work", a.plastic_work);
   visit("viscous_work", a.viscous_work);
   visit("plastic_heating", a.plastic_heating);
-  visit("sound_speed_floors", a.sound_speed_floors);
-  visit("hugoniot_poles", a.hugoniot_poles);
-  visit("reflections", a.reflections);
-  visit("retries", a.retries);
-  visit("penetrations", a.penetrations);
-  visit("deepest_reflection", a.deepest_reflection);
-  visit("failures", a.failures);
-  visit("snap_backs", a.snap_backs);
-  visit("spalls", a.spalls);
-  visit("new_references", a.new_references);
-  visit("contact_pairs", a.contact_pairs);
-  visit("wall_columns", a.wall_columns);
-  visit("step_external", a.step_external);
-  visit("peak_energy", a.peak_energy);
-  visit("peak_energy_time", a.peak_energy_time);
-  visit("stabilisation", a.stabilisation);
-  visit("conversion_heat", a.conversion_heat);
-  visit("level_heat", a.level_heat);
-  visit("split_points", a.split_points);
-  visit("most_folded", a.most_folded);
+  for_each_event(a, visit);
 }
 
 /// None is forgotten.

@@ -6,6 +6,8 @@
 ///   record(i / 8) + offset + 8 k + i % 8,
 /// and this file is the only place that says so. `place` below is offset + 8 k.
 /// Lanes past the last point are padding: copies of the last point with mass 0, see pad().
+#include <vector>
+
 #include "krater/core/aligned.hpp"
 #include "krater/core/isa.hpp"
 #include "krater/points/layout.hpp"
@@ -48,6 +50,8 @@ class PointStore {
   /// Overwrite point `to` by point `from`.
   void copy(int from, int to);
   void truncate(int count) { count_ = count; }
+  /// Drop points, by ascending numbers: the last that stays moves into the first hole.
+  void remove(const std::vector<int>& holes);
   /// Room for `count` points, whose values the caller writes.
   void resize(int count);
   /// Make the padding lanes of the last group copies of the last point; `mass`: its column.

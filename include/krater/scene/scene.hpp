@@ -45,6 +45,7 @@ struct GridOptions {
   Triple min{}, max{};                              ///< domain [m]
   std::array<std::array<Boundary, 2>, 3> boundary;  ///< [axis][0 lower, 1 upper]
   std::vector<RefineOptions> refine;                ///< empty: one level
+  bool merge = false;                               ///< points that came from finer cells
   int finest() const {
     int level = 0;
     for (const RefineOptions& rule : refine) level = level > rule.level ? level : rule.level;

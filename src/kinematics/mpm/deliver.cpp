@@ -13,13 +13,87 @@ namespace krater {
 
 namespace {
 
-/// Patches without points go; true: there were some.
-bool drop_empty(BlockGrid& grid) {
+using Places = std::set<std::pair<BlockKey, int>>;  ///< block, body
+
+/// Nothing in it, nothing on the way from it or to it.
+bool is_idle(const Patch& patch) {
+  return patch.points.count() == 0 && patch.outbox.used == 0 && patch.outbox.keys.empty() &&
+         !patch.awaited;
+}
+
+/// Blocks that points of one patch would be in after `ahead`, as they move now.
+std::vector<BlockKey> blocks_ahead(const BlockGrid& grid, const Patch& patch, const PointColumns& c,
+                                   double ahead) {
+  std::vector<BlockKey> out;
+  const GridGeometry& g = grid.geometry();
+  for (int i = 0; i < patch.points.count(); ++i) {
+    double x[3] = {};
+    bool inside = true;
+    for (int a = 0; a < g.dimension; ++a) {
+      x[a] = patch.points.at(c.position + kLanes * a, i) +
+             ahead * patch.points.at(c.velocity + kLanes * a, i);
+      inside = inside && x[a] > g.min[static_cast<std::size_t>(a)] && x[a] < g.upper(a);
+    }
+    if (!inside) continue;
+    const BlockKey key = grid.levels().block_at(x);
+    if (key != patch.key && std::find(out.begin(), out.end(), key) == out.end()) out.push_back(key);
+  }
+  return out;
+}
+
+/// A change of the topology costs as much as a step of a few blocks; where fragments fly there
+/// would be one in every step. So patches that the next steps will need are made with the first.
+void look_ahead(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, double ahead,
+                Places& missing) {
+  std::vector<std::vector<BlockKey>> found(grid.patches().size());
+  for_each(found.size(), [&](std::size_t p) {
+    const Patch& patch = grid.patches()[p];
+    if (!patch.settled)
+      found[p] =
+          blocks_ahead(grid, patch, bodies[static_cast<std::size_t>(patch.body)].columns, ahead);
+  });
+  for (std::size_t p = 0; p < found.size(); ++p)
+    for (const BlockKey& key : found[p]) {
+      const int body = grid.patches()[p].body;
+      if (const int there = grid.find_patch(key, body); there >= 0)
+        grid.patches()[static_cast<std::size_t>(there)].awaited = true;
+      else
+        missing.insert({key, body});
+    }
+}
+
+/// Of the patches that are there: to which points come now.
+void await(BlockGrid& grid, const std::vector<Arrival>& arrivals) {
+  for (Patch& patch : grid.patches()) patch.awaited = false;
+  const int slots = neighbour_count(grid.geometry().dimension);
+  for (const Patch& patch : grid.patches())
+    for (int s = 0; s < slots; ++s)
+      if (const int to = patch.links.neighbours[static_cast<unsigned>(s)];
+          ((patch.outbox.used >> s) & 1U) != 0 && to >= 0)
+        grid.patches()[static_cast<std::size_t>(to)].awaited = true;
+  for (const Arrival& a : arrivals)
+    if (const int to = grid.find_patch(a.key, a.body); to >= 0)
+      grid.patches()[static_cast<std::size_t>(to)].awaited = true;
+}
+
+void make_patches(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
+                  const std::vector<Arrival>& arrivals, double ahead, Places missing) {
+  await(grid, arrivals);
+  if (ahead > 0) look_ahead(grid, bodies, ahead, missing);
+  grid.drop_patches_if(is_idle);
+  for (const auto& [key, body] : missing)
+    grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride).awaited = true;
+  grid.rebuild(false);
+}
+
+/// Patches that nothing is in go where they are a quarter of all; true: they went.
+bool drop_idle(BlockGrid& grid) {
   const auto& all = grid.patches();
-  const bool emptied =
-      std::any_of(all.begin(), all.end(), [](const Patch& p) { return p.points.count() == 0; });
-  if (emptied) grid.rebuild(true);
-  return emptied;
+  const auto idle = std::count_if(all.begin(), all.end(), is_idle);
+  if (4 * static_cast<std::size_t>(idle) <= all.size()) return false;
+  grid.drop_patches_if(is_idle);
+  grid.rebuild(false);
+  return true;
 }
 
 /// Points that changed their level, in the order of their patches; whole or in parts.
@@ -93,12 +167,13 @@ void take_from_neighbours(BlockGrid& grid, const std::vector<BodyKernelData>& bo
 }  // namespace
 
 Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
-                  const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes) {
+                  const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes,
+                  double ahead) {
   const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
   Delivered out;
   std::vector<Arrival> arrivals;
   if (!grid.levels().single()) arrivals = find_arrivals(grid, boundary, bodies, sizes, out);
-  std::set<std::pair<BlockKey, int>> missing;
+  Places missing;
   for (const Patch& patch : grid.patches())
     for (int s = 0; s < slots; ++s)
       if (((patch.outbox.used >> s) & 1U) != 0 &&
@@ -106,21 +181,18 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
         missing.insert({shifted(patch.key, s, dimension), patch.body});
   for (const Arrival& a : arrivals)
     if (grid.find_patch(a.key, a.body) < 0) missing.insert({a.key, a.body});
-  for (const auto& [key, body] : missing) {
-    grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride);
-  }
-  if (!missing.empty()) grid.rebuild(false);
+  if (!missing.empty()) make_patches(grid, bodies, arrivals, ahead, missing);
   const auto& all = grid.patches();
   if (arrivals.empty() && std::all_of(all.begin(), all.end(), [](const Patch& p) {
         return p.steady && p.outbox.used == 0;
       })) {
-    out.changed = drop_empty(grid);
+    out.changed = drop_idle(grid) || !missing.empty();
     return out;
   }
   take_from_neighbours(grid, bodies);
   take_arrivals(grid, bodies, arrivals);
   for (Patch& patch : grid.patches()) patch.outbox.clear();
-  out.changed = drop_empty(grid) || !missing.empty();
+  out.changed = drop_idle(grid) || !missing.empty();
   return out;
 }
 

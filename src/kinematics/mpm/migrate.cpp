@@ -201,19 +201,7 @@ Removed collect_leavers(Patch& patch, const Levels& levels, const BoundarySet& b
       holes.push_back(i);
     }
   }
-  // Fill holes from the end: the last point that stays moves into the first hole.
-  std::size_t first = 0, last = holes.size();
-  int count = patch.points.count();
-  while (first < last) {
-    if (holes[last - 1] == count - 1) {
-      --last;
-    } else {
-      patch.points.copy(count - 1, holes[first]);
-      ++first;
-    }
-    --count;
-  }
-  patch.points.truncate(count);
+  patch.points.remove(holes);
   if (!holes.empty()) patch.settled = false;
   return removed;
 }

@@ -2,9 +2,16 @@
 // The end of a step: points go where they belong, and cells may become others.
 #include <algorithm>
 
+#include "krater/core/parallel.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
 
 namespace krater {
+
+namespace {
+
+constexpr double kStepsAhead = 8;  ///< for which blocks are made beforehand
+
+}  // namespace
 
 void MpmStep::migrate() {
   for (std::size_t p = 0; p < removed_.size(); ++p) {
@@ -13,7 +20,7 @@ void MpmStep::migrate() {
   }
   if (impulses_.any()) note_put_back();
   const std::vector<int> losing = rigid_losses();
-  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_);
+  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_, kStepsAhead * last_step_);
   book_delivered(delivered);
   bool changed = delivered.changed;
   for (const int b : losing)  // what is left moves on as it did
@@ -40,6 +47,28 @@ void MpmStep::regrid(BlockSet refined) {
   book_delivered(deliver(grid_, boundary_, bodies_, sizes_));
   grid_.rebuild(true);
   relink();
+  lap(Phase::migrate);
+}
+
+void MpmStep::merge() {
+  std::vector<Merged> merged(grid_.patches().size());
+  const int corners = corner_count(grid_.geometry().dimension);
+  for_each(merged.size(), [&](std::size_t p) {
+    Patch& patch = grid_.patches()[p];
+    const auto body = static_cast<std::size_t>(patch.body);
+    for (int c = 0; c < corners; ++c)
+      if (grid_
+              .node_blocks()[static_cast<std::size_t>(
+                  patch.links.node_blocks[static_cast<std::size_t>(c)])]
+              .at_tie)
+        return;
+    merged[p] = merge_points(patch, grid_.geometry(patch.key.level), bodies_[body], sizes_[body],
+                             merge_plans_[body]);
+  });
+  for (const Merged& m : merged) {
+    audit_.book_level(m.heat, m.unfelt);
+    audit_.merged_points += m.points;
+  }
   lap(Phase::migrate);
 }
 

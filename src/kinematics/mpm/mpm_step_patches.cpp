@@ -53,6 +53,12 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
                      const SweepScratch& w) {
   Patch& patch = grid_.patches()[p];
   const BodyKernelData& body = bodies_[static_cast<unsigned>(patch.body)];
+  if (patch.points.empty()) {  // made ahead, or left behind: its tile is zero, and stays so
+    patch.result = {};
+    patch.tile.state = Tile::State::asleep;
+    removed_[p] = {};
+    return;
+  }
   const int corners = corner_count(grid_.geometry().dimension);
   const bool still =
       s.may_sleep &&

@@ -14,7 +14,8 @@ const BlockInfo& grid_block() {
       {{"cell", "spacing of the nodes", {number("m", Range::positive)}, kMust},
        {"box", "the domain", {block(box_block)}, kMust},
        {"boundary", "what each side of the domain does", {block(boundary_block)}, ""},
-       {"refine", "rules for finer cells", {word({"none"}), list({block(refine_block)})}, ""}}};
+       {"refine", "rules for finer cells", {word({"none"}), list({block(refine_block)})}, ""},
+       {"merge", "points that finer cells leave behind become one again", {flag()}, "false"}}};
   return info;
 }
 

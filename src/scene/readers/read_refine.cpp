@@ -116,7 +116,11 @@ std::string what_is_not_ready(const Scene& scene) {
 
 void read_refine(Block& grid, Reading& reading) {
   const Node* list = grid.find_block("refine");
-  if (list == nullptr) return;
+  if (list == nullptr) {
+    if (const Node* merge = grid.find("merge"))
+      grid.fail(*merge, "points come from finer cells only with grid.refine, which is not given");
+    return;
+  }
   if (list->kind != Node::Kind::list) {
     grid.fail(*list, std::string{"expected "} + kExample);
     return;
@@ -125,6 +129,10 @@ void read_refine(Block& grid, Reading& reading) {
   for (std::size_t i = 0; i < list->items.size(); ++i)
     reading.scene.grid.refine.push_back(read_rule(list->items[i], reading, resolved[i]));
   grid.record("refine", list_node(resolved));
+  const Node* merge = grid.find("merge");
+  reading.scene.grid.merge = grid.flag("merge", false);
+  if (reading.scene.grid.merge && reading.scene.grid.refine.empty())
+    grid.fail(*merge, "points come from finer cells only where grid.refine makes some");
 }
 
 /// Rules that lie in one another count once each for what they add to the rule around them.

@@ -30,9 +30,11 @@ struct Delivered {
   double finer_rate = 0;  ///< 1/dt at CFL 1 that points may have among finer cells [1/s]
 };
 /// Hand the outboxes over; makes and drops patches as needed, and splits what comes among finer
-/// cells, by the sizes of the bodies.
+/// cells, by the sizes of the bodies. Where patches are made, so are those that points will be in
+/// after `ahead` [s]: patches without points change no bit of the rest.
 Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
-                  const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes);
+                  const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes,
+                  double ahead = 0);
 
 /// New points of `body`, records of stride/8 doubles, to the blocks of their positions; what lies
 /// beyond an open side is removed at once. Relink afterwards.

@@ -21,6 +21,7 @@
 #include "krater/kinematics/energy_watch.hpp"
 #include "krater/kinematics/kinematics.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
+#include "krater/kinematics/mpm/merge.hpp"
 #include "krater/kinematics/mpm/migrate.hpp"
 #include "krater/kinematics/mpm/node_loads.hpp"
 #include "krater/kinematics/mpm/options.hpp"
@@ -100,6 +101,10 @@ class MpmStep final : public Kinematics {
   /// Another map of the levels: points move to their new blocks, and are split where these are
   /// finer.
   void regrid(BlockSet refined);
+  /// How each body's points become one (kinematics/mpm/merge.hpp).
+  void set_merge_plans(std::vector<MergePlan> by_body) { merge_plans_ = std::move(by_body); }
+  /// Where blocks away from the edges of their level are crowded.
+  void merge();
   /// After a fault: points under way between blocks go where they belong.
   void deliver_leavers() { deliver(grid_, boundary_, bodies_, sizes_); }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
@@ -192,6 +197,7 @@ class MpmStep final : public Kinematics {
   const std::vector<BodyKernelData>& bodies_;
   std::vector<PointColumns> columns_;  ///< of the bodies
   std::vector<PointSize> sizes_;
+  std::vector<MergePlan> merge_plans_;
   std::vector<BodyKernelData> velocity_from_kept_;  ///< xpic: the scatter reads the kept velocities
   std::vector<BodyKernelData> position_as_velocity_;  ///< fixed reference: x and F as v and L
   void lap(Phase phase) { watch_.lap(static_cast<std::size_t>(phase)); }
