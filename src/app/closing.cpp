@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "krater/app/progress.hpp"
 #include "krater/app/readable.hpp"
+#include "krater/app/run.hpp"
 
 namespace krater {
 
@@ -146,8 +149,8 @@ void add_time(const Json& summary, std::vector<std::string>& lines) {
   for (const auto& [seconds, words] : parts)
     if (wall > 0 && seconds > kShare * wall)
       list += fmt::format("{}{} {:.0f} %", list.empty() ? "" : ", ", words, 100 * seconds / wall);
-  lines.push_back(fmt::format("time: {}, after {} to set up", readable(wall, "s", 3),
-                              readable(setup, "s", 3)));
+  lines.push_back(
+      fmt::format("time: {}, after {} to set up", readable(wall, "s", 3), readable(setup, "s", 3)));
   lines.push_back(fmt::format("  {}; {:.3g} million point-steps/s, {:.0f} MiB of memory", list,
                               1e-6 * number(machine, "point_steps_per_second"),
                               number(machine, "peak_resident_bytes") / (1024.0 * 1024.0)));
@@ -161,6 +164,28 @@ std::vector<std::string> closing_lines(const Json& summary) {
   add_energy(summary, lines);
   add_time(summary, lines);
   return lines;
+}
+
+std::vector<std::string> removal_notes(const Simulation& sim) {
+  std::vector<std::string> lines;
+  const Eroded eroded = sim.mesh() != nullptr ? sim.mesh()->eroded() : Eroded{};
+  const double failed = sim.audit().removed_failed - eroded.all();
+  if (failed > 0)
+    lines.push_back(
+        fmt::format("{:.0f} points failed and were removed, as the scene asks", failed));
+  if (eroded.all() > 0) lines.push_back(describe_eroded(eroded));
+  const Eroded converted = sim.mesh() != nullptr ? sim.mesh()->converted() : Eroded{};
+  if (converted.all() > 0) lines.push_back(describe_converted(converted));
+  return lines;
+}
+
+int print_summary(Json summary, const std::string& folder, int code) {
+  summary["results"] = Json::of(folder);
+  summary["exit_code"] = Json::of(code);
+  std::fputs(to_text(summary).c_str(), stdout);
+  if (std::fflush(stdout) == 0) return code;
+  say("krater: standard output cannot be written");
+  return kBadInput;
 }
 
 }  // namespace krater

@@ -2,7 +2,6 @@
 #include "krater/app/run.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 
@@ -27,13 +26,10 @@
 #include "krater/measure/measurements.hpp"
 #include "krater/measure/outcomes.hpp"
 #include "krater/measure/snapshot.hpp"
-#include "krater/scene/compare.hpp"
 
 namespace krater {
 
 namespace {
-
-constexpr std::size_t kListed = 20;  // keys that differ in one message
 
 std::string default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem().string() + "_out";
@@ -58,7 +54,6 @@ class Runner {
 
  private:
   void begin();
-  std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint) const;
   void resume();
   std::vector<Quantity> history_columns();
   std::vector<Quantity> history_titles() const;  ///< without measuring, which measures remember
@@ -87,8 +82,6 @@ class Runner {
   }
   int finish(const std::string& status, const std::string& message, int code,
              const Progress& progress);
-  void tell_notes();
-  int print_json(Json summary, int code) const;
 
   RunOptions options_;
   Scene scene_;
@@ -131,29 +124,10 @@ void Runner::begin() {
   }
 }
 
-/// A state means something only to the scene it is a state of: with another density or law under it
-/// every later number would be wrong, and nothing would say so.
-std::vector<SceneDifference> Runner::require_same_scene(const Checkpoint& checkpoint) const {
-  const CheckpointBlob* text = checkpoint.find("scene");
-  if (text == nullptr) throw InputError(options_.restart + ": it names no scene");
-  std::vector<SceneDifference> differences = scene_differences(text->text, scene_.resolved);
-  std::string list;
-  std::size_t refused = 0;
-  for (const SceneDifference& d : differences) {
-    if (may_differ(d) || ++refused > kListed) continue;
-    list += fmt::format("\n  {}: {} in the checkpoint, {} in the scene", d.path, d.before, d.now);
-  }
-  if (refused == 0) return differences;
-  if (refused > kListed) list += fmt::format("\n  and {} more", refused - kListed);
-  throw InputError(options_.restart +
-                   ": it belongs to another scene; restart with the scene and the --set options it "
-                   "was written with (title, time, output, measures, references may change):" +
-                   list);
-}
-
 void Runner::resume() {
   const Checkpoint checkpoint = read_checkpoint(options_.restart);
-  const std::vector<SceneDifference> differences = require_same_scene(checkpoint);
+  const std::vector<SceneDifference> differences =
+      require_same_scene(checkpoint, options_.restart, scene_);
   try {
     sim_.restore(checkpoint);
   } catch (const InputError& e) {
@@ -390,7 +364,10 @@ int Runner::finish(const std::string& status, const std::string& message, int co
     for (const std::string& line : closing_lines(s)) tell(line);
     for (const std::string& line : errors) tell(line);
   }
-  tell_notes();
+  if (outcomes_.answered())
+    tell(fmt::format("stopped at {} of {}: {}", readable(sim_.time(), "s"),
+                     readable(scene_.time.end, "s"), outcomes_.answer()));
+  for (const std::string& line : removal_notes(sim_)) tell("note: " + line);
   const std::vector<Warning>& warnings = sim_.warnings().all();
   for (const Warning& warning : warnings) tell_always("warning: " + sentence(warning));
   const std::string with = warnings.empty() ? ""
@@ -399,30 +376,7 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   tell(fmt::format("{}{} after {} steps, results in {}", status, with, sim_.steps(),
                    results_.path()));
   const int exit_code = code == kDone && options_.strict && !warnings.empty() ? int{kWarned} : code;
-  return options_.json ? print_json(std::move(s), exit_code) : exit_code;
-}
-
-void Runner::tell_notes() {
-  if (outcomes_.answered())
-    tell(fmt::format("stopped at {} of {}: {}", readable(sim_.time(), "s"),
-                     readable(scene_.time.end, "s"), outcomes_.answer()));
-  const Eroded eroded = sim_.mesh() != nullptr ? sim_.mesh()->eroded() : Eroded{};
-  const double failed = sim_.audit().removed_failed - eroded.all();
-  if (failed > 0)
-    tell(fmt::format("note: {:.0f} points failed and were removed, as the scene asks", failed));
-  if (eroded.all() > 0) tell("note: " + describe_eroded(eroded));
-  const Eroded converted = sim_.mesh() != nullptr ? sim_.mesh()->converted() : Eroded{};
-  if (converted.all() > 0) tell("note: " + describe_converted(converted));
-}
-
-/// For scripts: what summary.json holds, and how the program ends.
-int Runner::print_json(Json summary, int code) const {
-  summary["results"] = Json::of(results_.path());
-  summary["exit_code"] = Json::of(code);
-  std::fputs(to_text(summary).c_str(), stdout);
-  if (std::fflush(stdout) == 0) return code;
-  say("krater: standard output cannot be written");
-  return kBadInput;
+  return options_.json ? print_summary(std::move(s), results_.path(), exit_code) : exit_code;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "krater/output/results.hpp"
+#include "krater/simulation/simulation.hpp"
 
 namespace krater {
 
@@ -18,5 +19,12 @@ inline constexpr std::array<const char*, 4> outside_names{"setup", "history_and_
 
 /// Lines for people, in units that they use.
 std::vector<std::string> closing_lines(const Json& summary);
+
+/// What the scene asked for and took away: failed points, eroded elements.
+std::vector<std::string> removal_notes(const Simulation& sim);
+
+/// `krater run --json`: what summary.json holds, the folder, and how the program ends, which is
+/// returned; kBadInput where standard output cannot be written.
+int print_summary(Json summary, const std::string& folder, int code);
 
 }  // namespace krater
