@@ -4,6 +4,7 @@
 import os
 import shutil
 import subprocess
+import textwrap
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -66,7 +67,8 @@ class Picture:
         """A figure of one time."""
         figure = plt.figure(figsize=(self.width, self.height), dpi=self.dpi)
         bar = 1.15 / self.width if self.colouring.field not in (None, "body") else 0.02
-        top, low = 0.72 / self.height, (0.62 if self.options.view == "section" else 0.15) / self.height
+        title = textwrap.wrap(self.run.title(), int(9.2 * self.width))
+        top, low = (0.5 + 0.22 * len(title)) / self.height, (0.62 if self.options.view == "section" else 0.15) / self.height
         left = 0.85 / self.width if self.options.view == "section" else 0.01
         low += 0.3 / self.height * (self.colouring.field == "body")
         axes = figure.add_axes([left, low, 1 - left - bar - 0.02, 1 - top - low])
@@ -78,8 +80,8 @@ class Picture:
                           loc="lower center", ncol=4, frameon=False, fontsize=10)
         elif self.colouring.field:
             self.colouring.bar(figure, cax=figure.add_axes([1 - bar, low, 0.16 / self.width, 1 - top - low]))
-        figure.text(0.14 / self.width, 1 - 0.1 / self.height, self.run.title(), fontsize=13, va="top", wrap=True)
-        figure.text(0.14 / self.width, 1 - 0.38 / self.height, self.subtitle(number), fontsize=11, va="top", color="0.35")
+        figure.text(0.14 / self.width, 1 - 0.1 / self.height, "\n".join(title), fontsize=13, va="top", linespacing=1.15)
+        figure.text(0.14 / self.width, 1 - (0.15 + 0.22 * len(title)) / self.height, self.subtitle(number), fontsize=11, va="top", color="0.35")
         return figure
 
     def section(self, axes, bodies):

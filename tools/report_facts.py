@@ -264,7 +264,8 @@ def energy_section(runs):
 
 def cost_bar(run):
     machine = run.summary.get("machine") or {}
-    seconds = {k: v for k, v in (machine.get("seconds") or {}).items() if isinstance(v, (int, float)) and v > 0}
+    every = {**(machine.get("seconds") or {}), **(machine.get("seconds_outside_steps") or {})}
+    seconds = {k: v for k, v in every.items() if isinstance(v, (int, float)) and v > 0}
     if not seconds:
         return ""
     wall = machine.get("wall_seconds") or 0

@@ -70,7 +70,7 @@ int dispatch(const Commands& commands, const RunOptions& options, const std::str
     else if (commands.schema.parsed())
       fmt::print("{}", schema_text(options.scene == "point"));
     else
-      print_models(model.empty() ? nullptr : model.c_str());
+      (options.json ? print_models_json : print_models)(model.empty() ? nullptr : model.c_str());
     if (std::fflush(stdout) == 0) return kDone;
     say("krater: standard output cannot be written");
     return kBadInput;
@@ -130,9 +130,12 @@ int command_line(int argc, char** argv) {
   run_command->add_flag("--quiet", options.quiet,
                         "no progress, no notes; warnings at the end only");
   run_command->add_flag("--strict", options.strict, "exit code 5 when the run ends with warnings");
+  CLI::Option* json = run_command->add_flag(
+      "--json", options.json, "at the end print one JSON object: summary.json and the exit code");
   CLI::Option* accuracy = run_command->add_option(
       "--accuracy", options.accuracy,
       "run coarse, then finer cells until every measure is known so well, as 2%");
+  json->excludes(accuracy);
   run_command
       ->add_option("--budget", options.budget, "wall time for --accuracy, as 20min (the default)")
       ->needs(accuracy);
@@ -150,6 +153,7 @@ int command_line(int argc, char** argv) {
   CLI::App* models_command =
       app.add_subcommand("models", "list the material laws and cards, or describe one");
   models_command->add_option("name", model, "law");
+  models_command->add_flag("--json", options.json, "print one JSON object instead of text");
   CLI::App* schema_command =
       app.add_subcommand("schema", "print the JSON schema of scenes, for editors that know YAML");
   schema_command->add_option("of", options.scene, "scene (the default), or point: loading paths")

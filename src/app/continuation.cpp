@@ -3,7 +3,15 @@
 
 #include <fmt/format.h>
 
+#include "krater/core/errors.hpp"
+
 namespace krater {
+
+namespace {
+
+constexpr std::size_t kListed = 20;  // keys that differ in one message
+
+}  // namespace
 
 std::string quoted(const std::string& word) {
   if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -23,6 +31,25 @@ std::string command(const RunOptions& options, const std::string& folder) {
 
 std::string continuation(const RunOptions& options, const std::string& folder) {
   return command(options, folder) + " --restart " + quoted(folder + "/checkpoint.h5");
+}
+
+std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint,
+                                                const std::string& file, const Scene& scene) {
+  const CheckpointBlob* text = checkpoint.find("scene");
+  if (text == nullptr) throw InputError(file + ": it names no scene");
+  std::vector<SceneDifference> differences = scene_differences(text->text, scene.resolved);
+  std::string list;
+  std::size_t refused = 0;
+  for (const SceneDifference& d : differences) {
+    if (may_differ(d) || ++refused > kListed) continue;
+    list += fmt::format("\n  {}: {} in the checkpoint, {} in the scene", d.path, d.before, d.now);
+  }
+  if (refused == 0) return differences;
+  if (refused > kListed) list += fmt::format("\n  and {} more", refused - kListed);
+  throw InputError(file +
+                   ": it belongs to another scene; restart with the scene and the --set options it "
+                   "was written with (title, time, output, measures, references may change):" +
+                   list);
 }
 
 }  // namespace krater

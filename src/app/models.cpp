@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/models.hpp"
 #include "krater/app/command_line.hpp"
-#include "krater/core/errors.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/scene/scene.hpp"
 
 namespace krater {
-
-namespace {
 
 const char* range_text(Range r) {
   switch (r) {
@@ -27,6 +25,15 @@ const char* range_text(Range r) {
   }
   return "any";
 }
+
+InputError no_such_model(const char* name) {
+  std::string known;
+  for (const LawInfo& law : catalogue()) known += (known.empty() ? "" : ", ") + law.name;
+  return InputError{fmt::format("krater models: no law '{}' (known: {}; cards: {})", name, known,
+                                fmt::join(scene::known_cards(), ", "))};
+}
+
+namespace {
 
 void print_law(const LawInfo& law) {
   fmt::print("{}: {}\n  {}\n  {}\n", law.family, law.name, law.equation, law.reference);
@@ -73,16 +80,12 @@ void print_models(const char* name) {
   }
   bool found = std::find(cards.begin(), cards.end(), name) != cards.end();
   if (found) print_card(name);
-  std::string known;
   for (const LawInfo& law : catalogue()) {
-    known += (known.empty() ? "" : ", ") + law.name;
     if (law.name != name) continue;
     print_law(law);
     found = true;
   }
-  if (!found)
-    throw InputError(fmt::format("krater models: no law '{}' (known: {}; cards: {})", name, known,
-                                 fmt::join(cards, ", ")));
+  if (!found) throw no_such_model(name);
 }
 
 }  // namespace krater

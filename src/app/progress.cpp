@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "krater/app/readable.hpp"
+
 namespace krater {
 
 namespace {
@@ -53,10 +55,11 @@ std::string Progress::line() const {
                       static_cast<double>(sim_.point_count()) / elapsed;
   const std::string eta = share > 0 ? clock_text(elapsed * (1 - share) / share) : "?";
   return fmt::format(
-      "{:5.1f} %  {} left  t = {:.3e} s  step {}  dt = {:.2e} s ({})  energy error {:+.2f} %  "
+      "{:5.1f} %  {} left  t = {}  step {}  dt = {} ({})  energy error {:+.2f} %  "
       "{:.2f} M point-steps/s",
-      100 * sim_.time() / end, eta, sim_.time(), sim_.steps(), sim_.dt(), sim_.limiter(),
-      100 * sim_.audit().error_fraction(), 1e-6 * rate);
+      100 * sim_.time() / end, eta, readable(sim_.time(), "s"), sim_.steps(),
+      readable(sim_.dt(), "s", 3), sim_.limiter(), 100 * sim_.audit().error_fraction(),
+      1e-6 * rate);
 }
 
 std::string Progress::show() {

@@ -9,27 +9,27 @@
 
 #include "app/continuation.hpp"
 #include "app/signals.hpp"
+#include "krater/app/closing.hpp"
 #include "krater/app/effects.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/forecast.hpp"
 #include "krater/app/known_error.hpp"
 #include "krater/app/machine.hpp"
 #include "krater/app/progress.hpp"
+#include "krater/app/readable.hpp"
 #include "krater/app/schedule.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/core/stopwatch.hpp"
 #include "krater/measure/gauges.hpp"
 #include "krater/measure/measurements.hpp"
 #include "krater/measure/outcomes.hpp"
 #include "krater/measure/snapshot.hpp"
-#include "krater/scene/compare.hpp"
 
 namespace krater {
 
 namespace {
-
-constexpr std::size_t kListed = 20;  // keys that differ in one message
 
 std::string default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem().string() + "_out";
@@ -37,7 +37,8 @@ std::string default_output(const std::string& scene) {
 
 class Runner {
  public:
-  Runner(const RunOptions& options, Scene scene)
+  /// `watch` runs since the program began to read the scene.
+  Runner(const RunOptions& options, Scene scene, const Stopwatch<outside_names.size()>& watch)
       : options_{options},
         scene_{std::move(scene)},
         sim_{scene_},
@@ -46,13 +47,13 @@ class Runner {
         gauges_{sim_, measurements_},
         costs_{scene_, sim_.isa_level()},
         results_{options.output.empty() ? default_output(options.scene) : options.output,
-                 !options.restart.empty()} {}
+                 !options.restart.empty()},
+        watch_{watch} {}
 
   int go();
 
  private:
   void begin();
-  std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint) const;
   void resume();
   std::vector<Quantity> history_columns();
   std::vector<Quantity> history_titles() const;  ///< without measuring, which measures remember
@@ -60,6 +61,13 @@ class Runner {
   void write_due(Schedule& frames, Schedule& history);
   void write_frame(double time);
   void write_checkpoint();
+  /// Does a thing outside the steps, and notes how long it took.
+  template <class Work>
+  void timed(Outside what, Work work) {
+    watch_.start();
+    work();
+    watch_.lap(static_cast<std::size_t>(what));
+  }
   /// To the log, and aloud unless --quiet.
   void tell(const std::string& line);
   void tell_always(const std::string& line);
@@ -84,6 +92,7 @@ class Runner {
   EffectCosts costs_;
   ResultsFolder results_;
   FolderLock lock_;
+  Stopwatch<outside_names.size()> watch_;
   int frame_ = 0;
   std::int64_t first_step_ = 0;
   std::string changed_;     ///< keys of the scene, since the checkpoint
@@ -115,29 +124,10 @@ void Runner::begin() {
   }
 }
 
-/// A state means something only to the scene it is a state of: with another density or law under it
-/// every later number would be wrong, and nothing would say so.
-std::vector<SceneDifference> Runner::require_same_scene(const Checkpoint& checkpoint) const {
-  const CheckpointBlob* text = checkpoint.find("scene");
-  if (text == nullptr) throw InputError(options_.restart + ": it names no scene");
-  std::vector<SceneDifference> differences = scene_differences(text->text, scene_.resolved);
-  std::string list;
-  std::size_t refused = 0;
-  for (const SceneDifference& d : differences) {
-    if (may_differ(d) || ++refused > kListed) continue;
-    list += fmt::format("\n  {}: {} in the checkpoint, {} in the scene", d.path, d.before, d.now);
-  }
-  if (refused == 0) return differences;
-  if (refused > kListed) list += fmt::format("\n  and {} more", refused - kListed);
-  throw InputError(options_.restart +
-                   ": it belongs to another scene; restart with the scene and the --set options it "
-                   "was written with (title, time, output, measures, references may change):" +
-                   list);
-}
-
 void Runner::resume() {
   const Checkpoint checkpoint = read_checkpoint(options_.restart);
-  const std::vector<SceneDifference> differences = require_same_scene(checkpoint);
+  const std::vector<SceneDifference> differences =
+      require_same_scene(checkpoint, options_.restart, scene_);
   try {
     sim_.restore(checkpoint);
   } catch (const InputError& e) {
@@ -204,21 +194,25 @@ void Runner::watch_time_step() {
 /// What is due after a step; all of it where the answer is there, for the run ends.
 void Runner::write_due(Schedule& frames, Schedule& history) {
   const bool row = history.due(sim_.time()) || scene_.output.history <= 0;
-  std::vector<Quantity> columns;
-  if (row) {
-    columns = history_columns();
-    results_.write_history(columns);
-    history.advance(sim_.time());
-  }
-  gauges_.look(sim_);
-  const bool ends = outcomes_.look(sim_, columns);
-  if (ends && !row) write_history();
-  if (ends || frames.due(sim_.time())) write_frame(sim_.time());
+  bool ends = false;
+  timed(Outside::history_and_measures, [&] {
+    std::vector<Quantity> columns;
+    if (row) {
+      columns = history_columns();
+      results_.write_history(columns);
+      history.advance(sim_.time());
+    }
+    gauges_.look(sim_);
+    ends = outcomes_.look(sim_, columns);
+    if (ends && !row) write_history();
+  });
+  if (ends || frames.due(sim_.time())) timed(Outside::frames, [&] { write_frame(sim_.time()); });
   frames.advance(sim_.time());
 }
 
 int Runner::go() {
   begin();
+  watch_.lap(static_cast<std::size_t>(Outside::setup));
   listen_to_signals();
   Progress progress{sim_, options_.quiet};
   const double end = scene_.time.end;
@@ -242,7 +236,7 @@ int Runner::go() {
       write_due(frames, history);
       if (scene_.output.checkpoint_wall > 0 &&
           progress.seconds() - last_checkpoint > scene_.output.checkpoint_wall) {
-        write_checkpoint();
+        timed(Outside::checkpoints, [&] { write_checkpoint(); });
         last_checkpoint = progress.seconds();
       }
       tell_progress(progress);
@@ -252,7 +246,7 @@ int Runner::go() {
   } catch (const NumericalError& e) {
     return fail(e.what(), progress);
   }
-  write_checkpoint();
+  timed(Outside::checkpoints, [&] { write_checkpoint(); });
   progress.finish();
   return finish("done", "", kDone, progress);
 }
@@ -335,7 +329,13 @@ Json Runner::summary(const std::string& status, double seconds) {
   limiters["2"] = Json::of("volume change");
   // Machine and clock: everything above is the same for any number of threads, everything below is
   // not.
-  j["machine"] = machine_json(sim_, seconds, point_steps());
+  Json& machine = j["machine"] = machine_json(sim_, seconds, point_steps());
+  for (std::size_t i = 0; i < outside_names.size(); ++i)
+    machine["seconds_outside_steps"][outside_names[i]] = Json::of(watch_.seconds(i));
+  machine["command"] = Json::of(command(options_, results_.path()));
+  machine["set"] = Json::array();
+  for (const std::string& setting : options_.overrides)
+    machine["set"].items.push_back(Json::of(setting));
   Json& program = j["program"];
   program["version"] = Json::of(v.program);
   program["revision"] = Json::of(v.revision);
@@ -361,18 +361,13 @@ int Runner::finish(const std::string& status, const std::string& message, int co
   if (code == kDone) {
     for (const std::string& line : effect_table(scene_, report)) tell(line);
     for (const std::string& line : report.sentences) tell("advice: " + line);
+    for (const std::string& line : closing_lines(s)) tell(line);
     for (const std::string& line : errors) tell(line);
   }
   if (outcomes_.answered())
-    tell(fmt::format("stopped at {:.4g} s of {:.4g} s: {}", sim_.time(), scene_.time.end,
-                     outcomes_.answer()));
-  const Eroded eroded = sim_.mesh() != nullptr ? sim_.mesh()->eroded() : Eroded{};
-  const double failed = sim_.audit().removed_failed - eroded.all();
-  if (failed > 0)
-    tell(fmt::format("note: {:.0f} points failed and were removed, as the scene asks", failed));
-  if (eroded.all() > 0) tell("note: " + describe_eroded(eroded));
-  const Eroded converted = sim_.mesh() != nullptr ? sim_.mesh()->converted() : Eroded{};
-  if (converted.all() > 0) tell("note: " + describe_converted(converted));
+    tell(fmt::format("stopped at {} of {}: {}", readable(sim_.time(), "s"),
+                     readable(scene_.time.end, "s"), outcomes_.answer()));
+  for (const std::string& line : removal_notes(sim_)) tell("note: " + line);
   const std::vector<Warning>& warnings = sim_.warnings().all();
   for (const Warning& warning : warnings) tell_always("warning: " + sentence(warning));
   const std::string with = warnings.empty() ? ""
@@ -380,7 +375,8 @@ int Runner::finish(const std::string& status, const std::string& message, int co
                                                           warnings.size() > 1 ? "s" : "");
   tell(fmt::format("{}{} after {} steps, results in {}", status, with, sim_.steps(),
                    results_.path()));
-  return code == kDone && options_.strict && !warnings.empty() ? int{kWarned} : code;
+  const int exit_code = code == kDone && options_.strict && !warnings.empty() ? int{kWarned} : code;
+  return options_.json ? print_summary(std::move(s), results_.path(), exit_code) : exit_code;
 }
 
 }  // namespace
@@ -388,9 +384,10 @@ int Runner::finish(const std::string& status, const std::string& message, int co
 int run(const RunOptions& options) {
   set_threads(options.threads);
   flush_denormals();
+  Stopwatch<outside_names.size()> watch;
   Scene scene = read_scene(options.scene, options.overrides);
   require_feasible(scene, forecast(scene));
-  return Runner{options, std::move(scene)}.go();
+  return Runner{options, std::move(scene), watch}.go();
 }
 
 }  // namespace krater

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 from browser_support import Page, browser
-from scene_support import ROOT, TAYLOR, Folder, check, environment, finish, run, summary
+from scene_support import ROOT, Folder, check, environment, finish, run, summary
 
 COARSE = ["grid.cell=0.762mm", "time.end=24us", "output.frames=4us"]
 
@@ -64,19 +64,32 @@ def warnings(page):
     check("7 points left &lt;the&gt; domain" in page and "done, 1 warning" in page, "warnings are repeated, as text")
 
 
+READ = """(async () => {
+    const film = player.films[0], last = film.frames.length - 1, name = 'temperature';
+    const values = await film.layer(last, name), cover = await film.layer(last, 'cover');
+    const [low, high] = film.frames[last].values[Object.keys(film.fields).indexOf(name)];
+    const found = PLACES.map(([r, z]) => {
+        const at = film.index(r, z), v = values[Math.round(at[1]) * film.columns + Math.round(at[0])];
+        return v ? low + (v - 1) / 254 * (high - low) : null;
+    });
+    return [found, cover.filter((c) => c >= 128).length * film.pixel ** 2];
+})()"""
+
+
 def values_are_true(page):
-    """What the page would show in the middle of the rod is what the points have there."""
-    with Page(page) as opened:
-        opened.until("document.body.dataset.drawn !== undefined")
-        shown = opened.value("""(async () => { const f = player.films[0], k = f.frames.length - 1, v = await f.layer(k, 'temperature'),
-            [low, high] = f.frames[k].values[Object.keys(f.fields).indexOf('temperature')], at = f.index(1e-3, 8e-3);
-            return low + (v[Math.round(at[1]) * f.columns + Math.round(at[0])] - 1) / 254 * (high - low); })()""")
+    """What the page would show is what the points have there, from the foot to the end; and the section is as large as they are."""
     with h5py.File("coarse/frames.h5", "r") as file:
         rod = file["frames"][sorted(file["frames"])[-1]]["rod"]
         x, values = rod["coordinates"][()], rod["temperature"][()]
-    near = np.argsort(np.hypot(x[:, 0] - 1e-3, x[:, 2] - 8e-3))[:6]
-    spread = np.ptp(values)
-    check(abs(shown - values[near].mean()) < 0.05 * spread, "temperature in the page", f"{shown} for {values[near].mean()}")
+        area = (rod["mass"][()] / rod["density"][()] / (2 * np.pi * x[:, 0])).sum()
+    places = [[1e-3, 1e-3 * z] for z in (0.8, 1.5, 2.5, 4, 8, 15)]
+    wanted = [values[np.argsort(np.hypot(x[:, 0] - r, x[:, 2] - z))[:4]].mean() for r, z in places]
+    with Page(page) as opened:
+        opened.until("document.body.dataset.drawn !== undefined")
+        shown, seen = opened.value(READ.replace("PLACES", json.dumps(places)))
+    check(None not in shown and max(abs(a - b) for a, b in zip(shown, wanted)) < 0.05 * np.ptp(values)
+          and np.ptp(wanted) > 0.3 * np.ptp(values), "temperatures in the page", f"{shown} for {wanted}")
+    check(abs(seen / area - 1) < 0.04, "the area of the section", f"{seen} for {area}")
 
 
 def plays(page, films):

@@ -26,7 +26,8 @@ class Player {
     const figure = $("films").appendChild(document.createElement("figure"));
     const title = figure.appendChild(document.createElement("div"));
     if (this.runs.length > 1) title.innerHTML = `<span class=dot style="background:${run.colour}"></span>`;
-    title.append(this.runs.length > 1 ? run.title : "");
+    const cut = run.film.section;
+    title.append([this.runs.length > 1 ? run.title : "", cut ? `section ${cut[0]} = ${digits(cut[1] * 1e3)} mm` : ""].filter(Boolean).join(", "));
     const canvas = figure.appendChild(document.createElement("canvas"));
     return new Film(run, canvas, figure.appendChild(document.createElement("figcaption")));
   }
@@ -110,8 +111,20 @@ class Player {
     if (ticket !== this.ticket) return;
     this.films.forEach((film, k) => { film.now = loaded[k]; });
     (this.overlaid ? this.films.slice(0, 1) : this.films).forEach((film) => { draw(film, film.now, this.look, this.view); this.frill(film); });
-    if (this.overlaid) this.films.forEach((film) => outline(film, film.now.cover, this.films[0].canvas.getContext("2d"), this.view, film.run.colour));
+    if (this.overlaid) this.outlines();
     document.body.dataset.drawn = this.frame;
+  }
+  // Of all runs in one picture, and whose they are.
+  outlines() {
+    const g = this.films[0].canvas.getContext("2d"), sharp = Math.min(window.devicePixelRatio || 1, 2);
+    g.font = `${13 * sharp}px system-ui, "DejaVu Sans", sans-serif`;
+    this.films.forEach((film, k) => {
+      outline(film, film.now.cover, g, this.view, film.run.colour);
+      g.fillStyle = film.run.colour;
+      g.fillRect(14 * sharp, (17 + 20 * k) * sharp, 22 * sharp, 3 * sharp);
+      g.fillStyle = "#1b2733";
+      g.fillText(film.run.title + (k ? "" : ", coloured"), 44 * sharp, (23 + 20 * k) * sharp);
+    });
   }
   // Axis of symmetry, a bar of length.
   frill(film) {

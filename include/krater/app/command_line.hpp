@@ -14,5 +14,7 @@ struct RunOptions;
 void print_check(const RunOptions& options);
 /// `krater models [NAME]`.
 void print_models(const char* name);
+/// The same as one JSON object.
+void print_models_json(const char* name);
 
 }  // namespace krater

@@ -24,7 +24,7 @@ struct RunOptions {
   std::string accuracy, budget;        ///< --accuracy 2% --budget 20min: a study (app/study.hpp)
   int threads = 0;                     ///< 0: all
   bool quiet = false;
-  bool json = false;    ///< of check: one JSON object in place of text
+  bool json = false;    ///< one JSON object on standard output
   bool strict = false;  ///< a run that ends with warnings is not done
 };
 
