@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/program.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/scene/scene.hpp"
 #include "scene/yaml/keyword_card.hpp"
@@ -25,8 +26,8 @@ namespace fs = std::filesystem;
 /// tell where the program lies.
 fs::path installed_cards() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return {};
+  const fs::path program = program_path();
+  if (program.empty()) return {};
   const fs::path built = program.parent_path() / "materials";  // a link to those of the sources
   const fs::path installed = program.parent_path() / KRATER_INSTALLED_CARDS;
   return (fs::is_directory(installed, error) ? installed : built).lexically_normal();
