@@ -45,7 +45,7 @@ LIBRARIES = [
     (r"(\w*intrin|cpuid|arm_neon|arm_sve)\.h", ["core/simd"]),
     (r"krater/version_generated\.hpp", ["app/version"]),
     (r"(Eigen|fmt)/", [""]),
-    (r"(sys/(stat|resource|time|types|utsname)|unistd|fcntl|sched|pthread)\.h",
+    (r"(sys/(stat|resource|time|types|utsname|auxv)|unistd|fcntl|sched|pthread)\.h",
      ["core", "output", "simulation", "app"]),
 ]
 STANDARD = re.compile(r"[a-z_0-9]+")  # <vector>, <cmath>: no folder, no suffix

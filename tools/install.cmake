@@ -20,8 +20,12 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/tools/report)
 endif()
 list(TRANSFORM tools PREPEND tools/ OUTPUT_VARIABLE programs)
 install(PROGRAMS ${programs} DESTINATION ${share}/tools)
-file(GLOB modules CONFIGURE_DEPENDS tools/plot_run_*.py tools/report*.py)
-install(FILES ${modules} tools/krater_program.py tools/point_surface.py tools/summary_text.py DESTINATION ${share}/tools)
+file(GLOB modules CONFIGURE_DEPENDS tools/*.py)
+list(FILTER modules EXCLUDE REGEX "/(check|validate|bench|hard|write)_[^/]*$|/(stability|expectations|krater_results)[.]py$")
+install(FILES ${modules} DESTINATION ${share}/tools)
+if(EXISTS ${PROJECT_SOURCE_DIR}/tools/report_page)  # parts of the page that tools/report makes
+  install(DIRECTORY tools/report_page DESTINATION ${share}/tools)
+endif()
 install(DIRECTORY tools/krater_study DESTINATION ${share}/tools FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 install(FILES tools/krater_results.py DESTINATION ${KRATER_PYTHON_DIR})
 file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/krater/tools)
@@ -60,8 +64,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "python3, python3-numpy, python3-scipy, python3-h5py, python3-matplotlib, python3-yaml")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-pandas, bash-completion")
+  "python3, python3-numpy, python3-scipy, python3-pandas, python3-h5py, python3-matplotlib, python3-yaml")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "bash-completion")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Material Point Method for impact, penetration and fragmentation
  Bodies are material points that carry mass, velocity, stress and damage through
  a background grid. One scene file in YAML describes a case, axisymmetric, in

@@ -58,7 +58,13 @@ std::vector<std::string> words_of_study(const CLI::App& command) {
   return words;
 }
 
-int dispatch(const Commands& commands, const RunOptions& options, const std::string& model) {
+/// What `krater models` is asked.
+struct ModelQuery {
+  std::string name, cards;
+  bool json = false;
+};
+
+int dispatch(const Commands& commands, const RunOptions& options, const ModelQuery& query) {
   try {
     if (commands.study.parsed()) return become_study(words_of_study(commands.study));
     if (!options.accuracy.empty()) return become_study(words_of_accuracy(options));
@@ -69,8 +75,11 @@ int dispatch(const Commands& commands, const RunOptions& options, const std::str
       run_point(options);
     else if (commands.schema.parsed())
       fmt::print("{}", schema_text(options.scene == "point"));
+    else if (!query.cards.empty())
+      print_cards(query.cards);
     else
-      (options.json ? print_models_json : print_models)(model.empty() ? nullptr : model.c_str());
+      (query.json ? print_models_json : print_models)(query.name.empty() ? nullptr
+                                                                         : query.name.c_str());
     if (std::fflush(stdout) == 0) return kDone;
     say("krater: standard output cannot be written");
     return kBadInput;
@@ -94,6 +103,16 @@ int dispatch(const Commands& commands, const RunOptions& options, const std::str
     say(fmt::format("krater: {}", e.what()));
     return kNumericalFailure;
   }
+}
+
+void add_models(CLI::App& app, ModelQuery& query) {
+  CLI::App* command =
+      app.add_subcommand("models", "list the material laws and cards, or describe one");
+  command->add_option("name", query.name, "law or card");
+  CLI::Option* cards =
+      command->add_option("--cards", query.cards,
+                          "find cards: a word of their names, comments or laws, as steel");
+  command->add_flag("--json", query.json, "print one JSON object instead of text")->excludes(cards);
 }
 
 /// CLI11 says only that a command is missing.
@@ -120,7 +139,7 @@ int command_line(int argc, char** argv) {
   });
   app.require_subcommand(1);
   RunOptions options;
-  std::string model;
+  ModelQuery query;
   CLI::App* run_command = app.add_subcommand("run", "compute a scene");
   add_scene_options(run_command, options);
   run_command->add_option("-o,--output", options.output, "results folder (default: SCENE_out)");
@@ -150,10 +169,7 @@ int command_line(int argc, char** argv) {
   add_scene_options(point_command, options);
   point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");
   point_command->add_flag("--quiet", options.quiet, "no table, no notes");
-  CLI::App* models_command =
-      app.add_subcommand("models", "list the material laws and cards, or describe one");
-  models_command->add_option("name", model, "law");
-  models_command->add_flag("--json", options.json, "print one JSON object instead of text");
+  add_models(app, query);
   CLI::App* schema_command =
       app.add_subcommand("schema", "print the JSON schema of scenes, for editors that know YAML");
   schema_command->add_option("of", options.scene, "scene (the default), or point: loading paths")
@@ -172,7 +188,7 @@ int command_line(int argc, char** argv) {
     return kBadInput;
   }
   return dispatch({*run_command, *check_command, *point_command, *study_command, *schema_command},
-                  options, model);
+                  options, query);
 }
 
 }  // namespace krater

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,7 +64,60 @@ void print_card(const std::string& name) {
   fmt::print("{}", card.yaml);
 }
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// The file of a card; its comments say what it is and where it is from.
+std::string text_of(const std::string& file) {
+  std::ifstream in{file};
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+/// The first comment of a card up to its first full stop or colon.
+std::string first_words(const std::string& text) {
+  std::istringstream lines{text};
+  std::string words;
+  for (std::string line; std::getline(lines, line) && line.starts_with('#');)
+    words += (words.empty() ? "" : " ") + line.substr(line.find_first_not_of("# "));
+  const std::size_t stop = std::min(words.find(". "), words.find(": "));
+  return words.substr(0, stop);
+}
+
+/// The laws of a card by family, as its values as written name them.
+std::string laws_of(const std::string& yaml) {
+  std::string names;
+  for (const LawInfo& law : catalogue()) {
+    const std::string block = fmt::format("\n{}:\n  {}:", law.family, law.name);
+    const std::string word = fmt::format("\n{}: {}\n", law.family, law.name);
+    const std::string whole = "\n" + yaml + "\n";
+    if (whole.find(block) == std::string::npos && whole.find(word) == std::string::npos) continue;
+    names += (names.empty() ? "" : ", ") + law.name;
+  }
+  return names;
+}
+
 }  // namespace
+
+void print_cards(const std::string& word) {
+  std::size_t found = 0;
+  const std::vector<std::string> cards = scene::known_cards();
+  for (const std::string& name : cards) {
+    const CardSummary card = scene::read_card(name);
+    const std::string text = text_of(card.file);
+    if (lower(name + "\n" + text).find(lower(word)) == std::string::npos) continue;
+    ++found;
+    fmt::print("{:<26} {}\n{:<26} laws: {}\n", name, first_words(text), "", laws_of(card.yaml));
+    if (!card.unsourced.empty())
+      fmt::print("{:<26} no source for: {}\n", "", fmt::join(card.unsourced, ", "));
+  }
+  if (found == 0)
+    throw InputError(fmt::format("krater models: no card holds the word '{}' (cards: {})", word,
+                                 fmt::join(cards, ", ")));
+}
 
 void print_models(const char* name) {
   const std::vector<std::string> cards = scene::known_cards();

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/program.hpp"
 
 namespace krater {
 
@@ -32,9 +33,9 @@ fs::path package(const fs::path& program) {
 }  // namespace
 
 int become_study(const std::vector<std::string>& words) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw InputError("krater study: the system does not tell where the program lies");
+  const fs::path program = program_path();
+  if (program.empty())
+    throw InputError("krater study: the system does not tell where the program lies");
   const std::string folder = package(program).string();
   setenv("KRATER", program.c_str(), 1);
   std::vector<std::string> all{KRATER_PYTHON, "-B", folder};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file app/command_line.hpp
-/// krater run | check | point | study | models. Exit codes: 0 done, 2 bad input, 3 numerical
-/// failure, 4
-/// interrupted.
+/// krater run | check | point | study | models | schema. Exit codes: 0 done, 2 bad input, 3
+/// numerical failure, 4 interrupted.
+#include <string>
 
 namespace krater {
 
@@ -16,5 +16,8 @@ void print_check(const RunOptions& options);
 void print_models(const char* name);
 /// The same as one JSON object.
 void print_models_json(const char* name);
+/// `krater models --cards WORD`: cards in whose name, comment, law or constant the word stands.
+/// Throws InputError where there is none.
+void print_cards(const std::string& word);
 
 }  // namespace krater

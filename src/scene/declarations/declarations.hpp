@@ -33,6 +33,7 @@ const BlockInfo& contact_pair_block();
 
 const BlockInfo& material_block();
 const BlockInfo& generated_card_block();
+const BlockInfo& keyword_card_block();
 const BlockInfo& law_block(int law);  ///< the parameters of a law of the catalogue
 const BlockInfo& damage_block();
 const BlockInfo& failure_block();

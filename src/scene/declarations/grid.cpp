@@ -49,10 +49,12 @@ const BlockInfo& boundary_block() {
 
 const BlockInfo& side_block() {
   static const auto wall = []() -> const BlockInfo& {
-    static const BlockInfo options{
-        "wall",
-        "Options of a wall.",
-        {{"friction", "Coulomb coefficient", {number("1", Range::non_negative)}, "0"}}};
+    static const BlockInfo options{"wall",
+                                   "Options of a wall.",
+                                   {{"friction",
+                                     "Coulomb coefficient",
+                                     {number("1", Range::non_negative)},
+                                     "(contact.walls, else 0)"}}};
     return options;
   };
   static const BlockInfo info{

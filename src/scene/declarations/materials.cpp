@@ -106,7 +106,11 @@ const BlockInfo& material_block() {
            static const BlockInfo card{
                "card",
                "What a card is generated from.",
-               {{"concrete", "all constants from the strength", {block(generated_card_block)}, ""}},
+               {{"concrete", "all constants from the strength", {block(generated_card_block)}, ""},
+                {"keywords",
+                 "the cards of a keyword file of LS-DYNA",
+                 {block(keyword_card_block)},
+                 ""}},
                true};
            return card;
          })},
@@ -157,6 +161,18 @@ const BlockInfo& generated_card_block() {
         {number("m", Range::positive)},
         "0.0095"},
        {"model", "the law that is generated", {word({"karagozian_case", "cscm"})}, kMust}}};
+  return info;
+}
+
+const BlockInfo& keyword_card_block() {
+  static const BlockInfo info{
+      "card.keywords",
+      "Cards of LS-DYNA: *MAT_015, *MAT_098, *MAT_008, *EOS_GRUNEISEN, *EOS_JWL.",
+      {{"file", "a .k file of one material, beside the scene", {text()}, kMust},
+       {"units",
+        "of mass, length and time in the file, as [g, mm, ms] or [ton, mm, s]",
+        {list({text()}, 3, 3)},
+        kMust}}};
   return info;
 }
 

@@ -280,6 +280,10 @@ const BlockInfo& contact_block() {
         {word({"volume_gradient", "logistic_regression"})},
         "volume_gradient"},
        {"friction", "Coulomb coefficient of all pairs", {number("1", Range::non_negative)}, "0"},
+       {"walls",
+        "Coulomb coefficient of sides that are walls and name none of their own",
+        {number("1", Range::non_negative)},
+        ""},
        {"pairs", "coefficients of single pairs", {list({block(contact_pair_block)})}, ""}}};
   return info;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "krater/scene/yaml/units.hpp"
+
 namespace krater::scene {
 
 namespace {
@@ -53,6 +55,16 @@ void read_driven(const Node& node, const Choice& choice, Reading& reading, Bound
     boundary.velocity = *read;
 }
 
+/// `contact: {walls: 0.1}`: of walls that name no friction. What is wrong with it the contact
+/// block's reader says.
+double friction_of_walls(const Reading& reading) {
+  const Node* contact = reading.root.find("contact");
+  const Node* walls = contact ? contact->find("walls") : nullptr;
+  if (!walls) return 0;
+  const QuantityText read = parse_quantity(walls->text, "1");
+  return read.problem.empty() && read.value > 0 ? read.value : 0;
+}
+
 /// `open`, `{wall: {friction: 0.1}}` or `{velocity: [0, 10 m/s]}`.
 GivenBoundary read_side(const Node& node, Reading& reading) {
   GivenBoundary side;
@@ -82,8 +94,11 @@ GivenBoundary read_side(const Node& node, Reading& reading) {
   } else if (choice->value) {
     Block block{member(side_block(), choice->name), choice->value, node.path + "." + choice->name,
                 node, reading.problems};
-    if (kind->kind == BoundaryKind::wall) side.boundary.friction = block.number(kFriction);
+    if (kind->kind == BoundaryKind::wall)
+      side.boundary.friction = block.number(kFriction, friction_of_walls(reading));
     block.finish();
+  } else if (kind->kind == BoundaryKind::wall) {
+    side.boundary.friction = friction_of_walls(reading);
   }
   return side;
 }

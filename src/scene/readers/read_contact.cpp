@@ -48,6 +48,15 @@ Node read_contact(const Node& node, Reading& reading) {
                                   contact.normal);
   const double friction = block.number("friction");
   contact.friction.assign(static_cast<std::size_t>(contact.fields * contact.fields), friction);
+  if (const auto walls = block.optional_number("walls")) {
+    block.record("walls", number_node(*walls));  // taken by the sides (read_boundary.cpp)
+    const auto& sides = reading.scene.grid.boundary;
+    const bool any = std::any_of(sides.begin(), sides.end(), [](const auto& axis) {
+      return std::any_of(axis.begin(), axis.end(),
+                         [](const Boundary& b) { return b.kind == BoundaryKind::wall; });
+    });
+    if (!any) block.fail(*node.find("walls"), "no side of the domain is a wall (grid.boundary)");
+  }
   std::vector<Node> pairs;
   if (const Node* list = block.find("pairs")) {
     if (list->kind != Node::Kind::list)

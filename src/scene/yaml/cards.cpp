@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/program.hpp"
 #include "krater/materials/catalogue.hpp"
 #include "krater/scene/scene.hpp"
+#include "scene/yaml/keyword_card.hpp"
 #include "scene/yaml/problems.hpp"
 
 namespace krater::scene {
@@ -22,8 +26,8 @@ namespace fs = std::filesystem;
 /// tell where the program lies.
 fs::path installed_cards() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return {};
+  const fs::path program = program_path();
+  if (program.empty()) return {};
   const fs::path built = program.parent_path() / "materials";  // a link to those of the sources
   const fs::path installed = program.parent_path() / KRATER_INSTALLED_CARDS;
   return (fs::is_directory(installed, error) ? installed : built).lexically_normal();
@@ -229,6 +233,28 @@ std::vector<std::string> take_unsourced(Node& card, Problems& problems) {
   return paths;
 }
 
+/// The card of a material, made or read; nothing after a problem.
+std::optional<CardedMaterial> card_of(const Node& card, const std::string& path,
+                                      const std::string& scene_file, Problems& problems) {
+  if (card.kind == Node::Kind::map && card.items.size() == 1 && card.items[0].key == "keywords") {
+    const Node& keywords = card.items[0];
+    const std::size_t before = problems.size();
+    const Node made = keyword_card(keywords, scene_file, problems);
+    if (problems.size() > before) return std::nullopt;
+    return CardedMaterial{placed(card, path, made), keywords.find("file")->text, {}, {}};
+  }
+  if (card.kind == Node::Kind::map)
+    return CardedMaterial{generated_card(card, path, problems), "generated", {}, {}};
+  if (card.kind != Node::Kind::scalar || card.text.empty()) {
+    problems.add(card.file, card.line, card.path,
+                 "expected the name or path of a card, found " + card.kind_name());
+    return std::nullopt;
+  }
+  const std::string file = find_card(card, scene_file, problems);
+  if (file.empty()) return std::nullopt;
+  return CardedMaterial{read_yaml_file(file, path, problems), file, {}, {}};
+}
+
 }  // namespace
 
 CardedMaterial with_card(const Node& material, const std::string& scene_file, Problems& problems) {
@@ -240,21 +266,11 @@ CardedMaterial with_card(const Node& material, const std::string& scene_file, Pr
       report_not_in_card(*asked, key, "", scene_file, problems);
   }
   if (!card) return {material, "", {}, {}};
-  if (card->kind == Node::Kind::map) {
-    CardedMaterial result{generated_card(*card, material.path, problems), "generated", {}, {}};
-    result.block.key = material.key;
-    overlay(result.block, own);
-    return result;
-  }
-  if (card->kind != Node::Kind::scalar || card->text.empty()) {
-    problems.add(card->file, card->line, card->path,
-                 "expected the name or path of a card, found " + card->kind_name());
-    return {material, "", {}, {}};
-  }
-  const std::string file = find_card(*card, scene_file, problems);
-  if (file.empty()) return {material, "", {}, {}};
-  CardedMaterial result{read_yaml_file(file, material.path, problems), file, {}, {}};
+  std::optional<CardedMaterial> read = card_of(*card, material.path, scene_file, problems);
+  if (!read) return {material, "", {}, {}};
+  CardedMaterial result = *std::move(read);
   Node& whole = result.block;
+  const std::string file = result.file;
   whole.key = material.key;
   const std::vector<std::string> unsourced = take_unsourced(whole, problems);
   if (const Node* nested = whole.find("card")) {

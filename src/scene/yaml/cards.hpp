@@ -15,6 +15,9 @@
 /// `unsourced: [spall_strength, heating.plastic_work.cp]` in a card names the values that no source
 /// was read for; `krater check` and `krater models` repeat them.
 ///
+/// `card: {keywords: {file: steel.k, units: [g, mm, ms]}}` is read from cards of LS-DYNA
+/// (scene/yaml/keyword_card.hpp).
+///
 /// `card: {concrete: {fc: 39 MPa, model: karagozian_case}}` (or cscm) is generated from a strength
 /// instead of read: uncalibrated, and said so.
 #include <string>
@@ -33,6 +36,8 @@ struct CardedMaterial {
   std::vector<std::string> unused;     ///< keys that the card holds and the scene does not ask for
   std::vector<std::string> unsourced;  ///< of the card's values used: no source was read for them
 };
+/// A value as it would stand at another place of a file, for its messages.
+Node placed(const Node& at, const std::string& path, Node value);
 /// The block of a material generated from what stands in `card`; `path` is the material's.
 Node generated_card(const Node& card, const std::string& path, Problems& problems);
 

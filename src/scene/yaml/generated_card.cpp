@@ -14,7 +14,8 @@ namespace {
 /// Laws that make all their constants of a strength and a grain.
 constexpr const char* kGenerated[] = {"karagozian_case", "cscm"};
 
-/// A copy of a node's place, as a map or a scalar at another path.
+}  // namespace
+
 Node placed(const Node& at, const std::string& path, Node value) {
   value.file = at.file;
   value.line = at.line;
@@ -23,16 +24,14 @@ Node placed(const Node& at, const std::string& path, Node value) {
   return value;
 }
 
-}  // namespace
-
 Node generated_card(const Node& card, const std::string& path, Problems& problems) {
   Node made;
   made.kind = Node::Kind::map;
   if (card.items.size() != 1 || card.items[0].key != "concrete" ||
       card.items[0].kind != Node::Kind::map) {
     problems.add(card.file, card.line, card.path,
-                 "a card is a name, a path, or what one is generated from: {concrete: {fc: 39 MPa, "
-                 "model: karagozian_case}}");
+                 "a card is a name, a path, or what one is made from: {concrete: {fc: 39 MPa, "
+                 "model: karagozian_case}} or {keywords: {file: steel.k, units: [g, mm, ms]}}");
     return made;
   }
   Block block{generated_card_block(), &card.items[0], card.path + ".concrete", card, problems};
