@@ -183,6 +183,8 @@ void ContactSet::link(const BlockGrid& grid, Group& group) const {
 void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {
   const double* nodes = grid.nodes();  // node memory is contiguous over blocks
   scratch.filling.resize(group.sources.size());
+  scratch.slopes.resize(std::max(scratch.slopes.size(), group.sources.size()));
+  ++scratch.fillings;
   for (int f = 0; f < group.fields; ++f)
     for (int n = 0; n < size_; ++n) {
       const auto i = static_cast<std::size_t>(f * size_ + n);

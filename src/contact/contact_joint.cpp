@@ -44,11 +44,15 @@ ContactSet::Slope ContactSet::slope_at(const double* phi) const {
   return out;
 }
 
-/// Mean of the joint's nodes.
-ContactSet::Slope ContactSet::slope_at(const double* phi, const Joint& joint) const {
+/// Mean of the joint's nodes. Nodes beside each other mostly share one: what was found is kept.
+ContactSet::Slope ContactSet::slope_at(Scratch& scratch, int field, const Joint& joint) const {
   Slope mean;
   for (int i = 0; i < joint.count; ++i) {
-    const Slope one = slope_at(phi + joint.nodes[static_cast<std::size_t>(i)]);
+    const auto n =
+        static_cast<std::size_t>(field * size_ + joint.nodes[static_cast<std::size_t>(i)]);
+    Slope& one = scratch.slopes[n];
+    if (one.of != scratch.fillings) one = slope_at(scratch.filling.data() + n);
+    one.of = scratch.fillings;
     mean.trust += one.trust / joint.count;
     for (unsigned a = 0; a < 3; ++a) mean.gradient[a] += one.gradient[a] / joint.count;
   }
@@ -98,7 +102,7 @@ ContactSet::Joint ContactSet::joint_of(const Scratch& scratch, int at,
                     scratch.filling.data() + contact.b * size_, at);
 }
 
-bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) const {
+bool ContactSet::find_contact(Scratch& scratch, int at, Contact& contact) const {
   const double* phi_a = scratch.filling.data() + contact.a * size_;
   const double* phi_b = scratch.filling.data() + contact.b * size_;
   const Joint joint = joint_near(phi_a, phi_b, at);
@@ -108,7 +112,8 @@ bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) 
     apart += gap(phi_a + n, phi_b + n) / joint.count;
   }
   if (apart > kTouch) return false;
-  const Slope a_slope = slope_at(phi_a, joint), b_slope = slope_at(phi_b, joint);
+  const Slope a_slope = slope_at(scratch, contact.a, joint),
+              b_slope = slope_at(scratch, contact.b, joint);
   const double flat_a = std::pow(a_slope.trust, kFlatter),
                flat_b = std::pow(b_slope.trust, kFlatter), none = 1 - std::max(flat_a, flat_b);
   double weight_a = flat_a + none, weight_b = flat_b + none;

@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 namespace krater {
 
 namespace {
 
-constexpr double kMiss = 0.05;   // cells: what a face may miss a plane by
-constexpr double kFaint = 0.02;  // weight of a filling of 0.005: fainter ones tell no distance
+constexpr double kMiss = 0.05;        // cells: what a face may miss a plane by
+constexpr double kFaint = 0.02;       // weight of a filling of 0.005: fainter ones tell no distance
+constexpr double kFlatSpread = 1e-4;  // cells^2d: nodes of one line, or fewer, make no plane
 
 template <class Visit>
 void each_node(const FillingWindow& w, int radius, const Visit& visit) {
@@ -62,39 +64,87 @@ std::array<double, 3> filling_gradient(const FillingWindow& w) {
   return out;
 }
 
+namespace {
+
+/// z of a filling, straight between the entries of a table: within 2e-3 where it has any weight.
+class ProbitTable {
+ public:
+  ProbitTable() {
+    for (std::size_t i = 1; i < kParts; ++i) z_[i] = probit(static_cast<double>(i) / kParts);
+    z_[0] = z_[1];
+    z_[kParts] = z_[kParts - 1];
+  }
+  double operator()(double p) const {
+    const double at = p * kParts;
+    const auto i = static_cast<std::size_t>(at);
+    return z_[i] + (at - static_cast<double>(i)) * (z_[i + 1] - z_[i]);
+  }
+
+ private:
+  static constexpr std::size_t kParts = 1024;
+  std::array<double, kParts + 1> z_{};
+};
+
+/// Weighted sums over the nodes of a window, of their places x and distances s.
+struct FaceSums {
+  double all = 0, s = 0, ss = 0;
+  std::array<double, 3> x{}, xs{};
+  std::array<double, 6> xx{};  ///< 00 11 22 01 02 12
+
+  void add(double weight, double distance, double i, double j, double k) {
+    const double ws = weight * distance, wi = weight * i, wj = weight * j, wk = weight * k;
+    all += weight;
+    s += ws;
+    ss += ws * distance;
+    x = {x[0] + wi, x[1] + wj, x[2] + wk};
+    xs = {xs[0] + ws * i, xs[1] + ws * j, xs[2] + ws * k};
+    xx = {xx[0] + wi * i, xx[1] + wj * j, xx[2] + wk * k,
+          xx[3] + wi * j, xx[4] + wi * k, xx[5] + wj * k};
+  }
+};
+
+}  // namespace
+
 FacePlane fit_face(const FillingWindow& window, const std::array<double, 3>& guess, int radius,
                    const ShapeSpread& spread) {
+  static const ProbitTable table;
   double fourth = 0;
   for (const double n : guess) fourth += n * n * n * n;
   const double bend = spread.excess * fourth / 24;
-  Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d moments = Eigen::Vector4d::Zero();
-  double squares = 0;
+  FaceSums sums;
   each_node(window, radius, [&](double phi, int i, int j, int k) {
     const double weight = 4 * phi * (1 - phi) - kFaint;
     if (!(weight > 0)) return;
-    const double z = probit(phi);
-    const double s = spread.deviation * z * (1 + bend * (z * z - 3));
-    const Eigen::Vector4d at{1, -double(i), -double(j), -double(k)};
-    sums.noalias() += weight * at * at.transpose();
-    moments += weight * s * at;
-    squares += weight * s * s;
+    const double z = table(phi);
+    sums.add(weight, spread.deviation * z * (1 + bend * (z * z - 3)), i, j, k);
   });
   FacePlane face;
-  const double all = sums(0, 0);
-  for (int a = window.dimension; a < 3; ++a) sums(a + 1, a + 1) = 1;  // no such axis
-  const Eigen::LDLT<Eigen::Matrix4d> solver(sums);
-  if (!(all > 0) || !(solver.vectorD().minCoeff() > 1e-3 * all)) return face;
-  Eigen::Vector4d plane = solver.solve(moments);
-  const double slope = plane.tail<3>().norm();
+  if (!(sums.all > 0)) return face;
+  // about the means: covariances of places, and of places with distances
+  const double inverse = 1 / sums.all, s = sums.s * inverse;
+  const Eigen::Vector3d x = inverse * Eigen::Vector3d{sums.x[0], sums.x[1], sums.x[2]};
+  const auto& q = sums.xx;
+  Eigen::Matrix3d spread_of;
+  spread_of << q[0], q[3], q[4], q[3], q[1], q[5], q[4], q[5], q[2];
+  spread_of = inverse * spread_of - x * x.transpose();
+  const Eigen::Vector3d with =
+      inverse * Eigen::Vector3d{sums.xs[0], sums.xs[1], sums.xs[2]} - s * x;
+  if (window.dimension == 2) spread_of(2, 2) = 1;  // no such axis
+  Eigen::Matrix3d inverted;
+  bool invertible = false;
+  spread_of.computeInverseWithCheck(inverted, invertible, kFlatSpread);
+  if (!invertible) return face;
+  Eigen::Vector3d normal = -(inverted * with);
+  const double slope = normal.norm();
   if (!(slope > 0)) return face;
-  plane /= slope;
+  normal /= slope;
   // of the unit slope, which the best one misses by what its scale is off
-  const double miss = squares - 2 * plane.dot(moments) + plane.dot(sums * plane);
-  const double q2 = std::max(miss, 0.0) / all / (kMiss * kMiss);
+  const double miss =
+      inverse * sums.ss - s * s + 2 * normal.dot(with) + normal.dot(spread_of * normal);
+  const double q2 = std::max(miss, 0.0) / (kMiss * kMiss);
   face.trust = 1 / (1 + q2 * q2);
-  face.reach = plane[0];
-  for (unsigned a = 0; a < 3; ++a) face.normal[a] = plane[static_cast<int>(a) + 1];
+  face.reach = s + normal.dot(x);
+  for (unsigned a = 0; a < 3; ++a) face.normal[a] = normal[static_cast<int>(a)];
   return face;
 }
 

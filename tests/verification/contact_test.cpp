@@ -132,7 +132,7 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
   return {velocity_of(run, 0), velocity_of(run, 1)};
 }
 
-/// Equal steel spheres of 1 m that meet at 17.3 m/s, over Hertz (theory D8), whose contact radius is
+/// Equal steel spheres of 1 m that meet at 17.3 m/s, over Hertz (theory D8): a contact radius of
 /// sqrt(R d/2) = 0.1 m. Hertz measures the approach from far away, a sphere has it from its own
 /// middle: less by (1 + nu)(3 - 2 nu) F/(2 pi E R) of a half space's, 7 % of it, so that the impact
 /// is stiffer in proportion to a/R. A sphere of elements on a wall, 40 and 80 to the radius:

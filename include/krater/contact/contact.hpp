@@ -17,8 +17,8 @@
 /// across and the directions of planes through the faces (contact/face_plane.hpp), as far as these
 /// are flat. With their trust t in [0, 1], w = t^4 + 1 - max(t_A^4, t_B^4): a flat face decides
 /// against a corner, equal ones are averaged, and of two corners the difference counts, in which
-/// what both lean aside cancels; of a fluid and a solid the solid decides, for the points of a fluid
-/// lie anyhow. `normal: logistic_regression` takes n from the points instead
+/// what both lean aside cancels; of a fluid and a solid the solid decides, for a fluid's points lie
+/// anyhow. `normal: logistic_regression` takes n from the points instead
 /// (contact/contact_regression.hpp), where neither body decides. In nodes of a plane that mirrors n
 /// keeps no component across it.
 /// Touching (contact/contact_joint.cpp): bodies are apart as soon as one grid axis parts them.
@@ -145,8 +145,16 @@ class ContactSet {
     double* node;
     std::array<double, 3> velocity;
   };
+  /// Gradient of a filling at a joint.
+  struct Slope {
+    std::array<double, 3> gradient{};  ///< [1/cell]
+    double trust = 0;                  ///< in its direction, 0 to 1
+    std::uint64_t of = 0;              ///< which filling
+  };
   struct Scratch {
     std::vector<double> filling;  ///< per field, padded on each side
+    std::vector<Slope> slopes;    ///< at the same nodes, found when first asked for
+    std::uint64_t fillings = 0;   ///< until now
     std::vector<Before> before;   ///< fields of a node, before they push
   };
   /// A deformable field's node, struck by a rigid body.
@@ -199,16 +207,11 @@ class ContactSet {
   static RigidShare& share_of(Group& group, int body);
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
-  /// Gradient of a filling at a joint.
-  struct Slope {
-    std::array<double, 3> gradient{};  ///< [1/cell]
-    double trust = 0;                  ///< in its direction, 0 to 1
-  };
   Slope slope_at(const double* phi) const;
-  Slope slope_at(const double* phi, const Joint& joint) const;
+  Slope slope_at(Scratch& scratch, int field, const Joint& joint) const;
   Joint joint_near(const double* phi_a, const double* phi_b, int at) const;
   double gap(const double* phi_a, const double* phi_b) const;
-  bool find_contact(const Scratch& scratch, int at, Contact& contact) const;
+  bool find_contact(Scratch& scratch, int at, Contact& contact) const;
   bool keep_in_planes(const BlockKey& key, Contact& contact) const;
   /// Returns the impulse on a.
   Triple exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;

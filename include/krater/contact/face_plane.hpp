@@ -46,7 +46,7 @@ struct FacePlane {
   double trust = 0;                ///< 0 to 1
 };
 
-/// Inverse of the normal distribution for p within (0, 1), to 1e-7 (Wichura 1988, AS 241).
+/// Inverse of the normal distribution for p within (0, 1), to 1e-6 (Wichura 1988, AS 241).
 double probit(double p);
 
 /// Central differences, smoothed across by (1 2 1)/4 along each other axis; in units of 1/cell.
