@@ -135,12 +135,12 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
 /// Equal steel spheres of 1 m that meet at 17.3 m/s, over Hertz (theory D8): a contact radius of
 /// sqrt(R d/2) = 0.1 m. Hertz measures the approach from far away, a sphere has it from its own
 /// middle: less by (1 + nu)(3 - 2 nu) F/(2 pi E R) of a half space's, 7 % of it, so that the impact
-/// is stiffer in proportion to a/R. A sphere of elements on a wall, 40 and 80 to the radius:
-/// force 1.052, 1.045, duration 0.970, 0.965 of Hertz; at a/R = 0.05 1.027, 0.989.
+/// is stiffer in proportion to a/R. A sphere of elements on a wall, 80 and 160 to the radius:
+/// force 1.045, 1.044, duration 0.965, 0.965 of Hertz; at a/R = 0.05 1.027, 0.989.
 struct Hertz {
   double peak_force, duration;  ///< over those of Hertz
 };
-constexpr Hertz kElements{1.045, 0.962};
+constexpr Hertz kElements{1.0437, 0.9647};
 
 /// m x'' = -k x^1.5 by small steps: greatest force, and time from 10 to 90 % of the impulse.
 Hertz hertz_exact(double mass, double k, double speed) {
