@@ -65,7 +65,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "python3, python3-numpy, python3-scipy, python3-pandas, python3-h5py, python3-matplotlib, python3-yaml")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "bash-completion")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "bash-completion, ffmpeg, python3-vtk9, xvfb")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Material Point Method for impact, penetration and fragmentation
  Bodies are material points that carry mass, velocity, stress and damage through
  a background grid. One scene file in YAML describes a case, axisymmetric, in

@@ -109,9 +109,8 @@ void add_models(CLI::App& app, ModelQuery& query) {
   CLI::App* command =
       app.add_subcommand("models", "list the material laws and cards, or describe one");
   command->add_option("name", query.name, "law or card");
-  CLI::Option* cards =
-      command->add_option("--cards", query.cards,
-                          "find cards: a word of their names, comments or laws, as steel");
+  CLI::Option* cards = command->add_option(
+      "--cards", query.cards, "find cards: a word of their names, comments or laws, as steel");
   command->add_flag("--json", query.json, "print one JSON object instead of text")->excludes(cards);
 }
 

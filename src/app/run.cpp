@@ -146,6 +146,7 @@ void Runner::resume() {
 
 std::vector<Quantity> Runner::history_columns() {
   sim_.look_at_elements();
+  sim_.look_for_torn_points();
   std::vector<Quantity> row = history_row(sim_);
   for (Quantity& q : measurements_.row(sim_)) row.push_back(std::move(q));
   return row;
@@ -313,6 +314,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
   sim_.look_at_elements();
+  sim_.look_for_torn_points();
   measurements_.summarize(sim_, j);
   outcomes_.summarize(sim_, j);
   gauges_.summarize(j);

@@ -12,7 +12,7 @@ namespace krater {
 
 namespace {
 
-constexpr int kHalo = 2, kSweeps = 3;
+constexpr int kSweeps = 3;
 
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
@@ -35,7 +35,7 @@ ContactSet::ContactSet(const GridGeometry& geometry, const BoundaryConditions& c
       linear_{linear},
       options_{options},
       edge_{block_edge(geometry.dimension)},
-      padded_{edge_ + 2 * kHalo},
+      padded_{edge_ + 2 * halo()},
       size_{geometry.dimension == 3 ? padded_ * padded_ * padded_ : padded_ * padded_} {
   for (int a = geometry.dimension - 1, s = 1; a >= 0; --a, s *= padded_) stride_[a] = s;
 }
@@ -135,7 +135,7 @@ ContactSet::AxisLinks ContactSet::axis_links(const BlockKey& key) const {
   for (int a = 0; a < geometry_.dimension; ++a)
     for (int i = 0; i < padded_; ++i) {
       const int origin = key.i[static_cast<unsigned>(a)] * edge_;
-      const int index = mirrored(g, a, origin + i - kHalo);
+      const int index = mirrored(g, a, origin + i - halo());
       const int offset = index < origin ? -1 : (index >= origin + edge_ ? 1 : 0);
       AxisLink& link = links[static_cast<unsigned>(a)][static_cast<unsigned>(i)];
       const double part = g.h * covered(g, a, index);
@@ -183,6 +183,8 @@ void ContactSet::link(const BlockGrid& grid, Group& group) const {
 void ContactSet::fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const {
   const double* nodes = grid.nodes();  // node memory is contiguous over blocks
   scratch.filling.resize(group.sources.size());
+  scratch.slopes.resize(std::max(scratch.slopes.size(), group.sources.size()));
+  ++scratch.fillings;
   for (int f = 0; f < group.fields; ++f)
     for (int n = 0; n < size_; ++n) {
       const auto i = static_cast<std::size_t>(f * size_ + n);
@@ -258,7 +260,7 @@ void ContactSet::refine(const BlockGrid& grid, const std::vector<PointColumns>& 
     for (int a = geometry_.dimension - 1, rest = joint.nodes[static_cast<std::size_t>(k)]; a >= 0;
          --a, rest /= padded_) {
       const auto i = static_cast<unsigned>(a);
-      const int index = mirrored(geometry_, a, home.key.i[i] * edge_ + rest % padded_ - kHalo);
+      const int index = mirrored(geometry_, a, home.key.i[i] * edge_ + rest % padded_ - halo());
       at[i] += (geometry_.min[i] + (index - 1) * geometry_.h) / joint.count;
     }
   const auto body = [&](int f) {
@@ -275,7 +277,7 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
     const std::array<int, 3> local = index_in({}, n, geometry_.dimension);
     int at = 0;
     for (int a = 0; a < geometry_.dimension; ++a)
-      at += (local[static_cast<unsigned>(a)] + kHalo) * stride_[a];
+      at += (local[static_cast<unsigned>(a)] + halo()) * stride_[a];
     return at;
   };
   const auto block = [&](int f) -> const NodeBlock& {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "krater/contact/contact.hpp"
+#include "krater/contact/face_plane.hpp"
 #include "krater/contact/joint_profile.hpp"
 
 namespace krater {
@@ -14,30 +15,48 @@ namespace {
 // Gap, in cells, at which bodies touch. A third of it loses joints to the unevenness of the
 // lattices (impulse between bars of different impedance 2.4 % low).
 constexpr double kTouch = 0.05;
-// At 10 the corners of a block on a base still plough: 1.3 % too much friction at 20 cells, 0.4 %
-// at 40; without friction it lost 0.03 % of its speed, and now 0.001 %.
-constexpr double kSteeper = 40;
+// Weight of a face by its trust: a corner on a face, of trust 0.1, has no say.
+constexpr double kFlatter = 4;
 constexpr double kSame = 1 - 1e-9;  // fillings that differ by less are the same
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 }  // namespace
 
-/// Central differences, smoothed across by (1 2 1)/4 along each other axis; in units of 1/cell.
-std::array<double, 3> ContactSet::gradient(const double* phi) const {
-  std::array<double, 3> out{};
-  const int dimension = geometry_.dimension;
-  for (int a = 0; a < dimension; ++a) {
-    const int t = stride_[(a + 1) % dimension], u = dimension == 3 ? stride_[(a + 2) % 3] : 0;
-    double slope = 0;
-    for (int i = -1; i <= 1; ++i)
-      for (int j = dimension == 3 ? -1 : 0; j <= (dimension == 3 ? 1 : 0); ++j) {
-        const int across = i * t + j * u;
-        slope += (2 - std::abs(i)) * (2 - std::abs(j)) *
-                 (phi[across + stride_[a]] - phi[across - stride_[a]]);
-      }
-    out[static_cast<unsigned>(a)] = slope / (dimension == 3 ? 32 : 16);
+/// As long as the central differences, and as far as the face is flat along its plane's normal.
+ContactSet::Slope ContactSet::slope_at(const double* phi) const {
+  const FillingWindow nodes{phi, {stride_[0], stride_[1], stride_[2]}, geometry_.dimension};
+  Slope out{filling_gradient(nodes)};
+  const double length = std::sqrt(square(out.gradient.data()));
+  if (!(length > 0)) return out;
+  std::array<double, 3> guess = out.gradient;
+  for (double& n : guess) n /= length;
+  std::array<double, 3> inward = guess;
+  const ShapeSpread spread = shape_spread(linear_);
+  for (int radius = 1; radius <= window(); ++radius) {  // the wider one has the last word
+    const FacePlane face = fit_face(nodes, guess, radius, spread);
+    for (unsigned a = 0; a < 3; ++a)
+      inward[a] = (1 - face.trust) * inward[a] - face.trust * face.normal[a];
+    out.trust += face.trust * (1 - out.trust);
   }
+  const double blended = std::sqrt(square(inward.data()));
+  if (!(blended > 0)) return out;
+  for (unsigned a = 0; a < 3; ++a) out.gradient[a] = inward[a] * length / blended;
   return out;
+}
+
+/// Mean of the joint's nodes. Nodes beside each other mostly share one: what was found is kept.
+ContactSet::Slope ContactSet::slope_at(Scratch& scratch, int field, const Joint& joint) const {
+  Slope mean;
+  for (int i = 0; i < joint.count; ++i) {
+    const auto n =
+        static_cast<std::size_t>(field * size_ + joint.nodes[static_cast<std::size_t>(i)]);
+    Slope& one = scratch.slopes[n];
+    if (one.of != scratch.fillings) one = slope_at(scratch.filling.data() + n);
+    one.of = scratch.fillings;
+    mean.trust += one.trust / joint.count;
+    for (unsigned a = 0; a < 3; ++a) mean.gradient[a] += one.gradient[a] / joint.count;
+  }
+  return mean;
 }
 
 /// Of the nodes around `at` those that both bodies fill best, and of these the nearest: there lies
@@ -83,33 +102,27 @@ ContactSet::Joint ContactSet::joint_of(const Scratch& scratch, int at,
                     scratch.filling.data() + contact.b * size_, at);
 }
 
-bool ContactSet::find_contact(const Scratch& scratch, int at, Contact& contact) const {
+bool ContactSet::find_contact(Scratch& scratch, int at, Contact& contact) const {
   const double* phi_a = scratch.filling.data() + contact.a * size_;
   const double* phi_b = scratch.filling.data() + contact.b * size_;
   const Joint joint = joint_near(phi_a, phi_b, at);
   double apart = 0;
-  std::array<double, 3> grad_a{}, grad_b{};
   for (int i = 0; i < joint.count; ++i) {
     const int n = joint.nodes[static_cast<std::size_t>(i)];
     apart += gap(phi_a + n, phi_b + n) / joint.count;
-    const std::array<double, 3> a = gradient(phi_a + n), b = gradient(phi_b + n);
-    for (unsigned k = 0; k < 3; ++k) {
-      grad_a[k] += a[k];
-      grad_b[k] += b[k];
-    }
   }
   if (apart > kTouch) return false;
-  // The body with the steeper filling is the wider one there: at the edge of a punch its normal is
-  // that of the plate. Equal ones are averaged.
-  const double a2 = square(grad_a.data()), b2 = square(grad_b.data());
-  double lesser = std::pow(std::min(a2, b2) / std::max(a2, b2), kSteeper);
-  bool a_decides = a2 >= b2;
+  const Slope a_slope = slope_at(scratch, contact.a, joint),
+              b_slope = slope_at(scratch, contact.b, joint);
+  const double flat_a = std::pow(a_slope.trust, kFlatter),
+               flat_b = std::pow(b_slope.trust, kFlatter), none = 1 - std::max(flat_a, flat_b);
+  double weight_a = flat_a + none, weight_b = flat_b + none;
   if (contact.fluid[0] != contact.fluid[1]) {  // the points of a fluid lie anyhow
-    a_decides = contact.fluid[1];
-    lesser = 0;
+    weight_a = contact.fluid[1] ? 1 : 0;
+    weight_b = 1 - weight_a;
   }
-  const double weight_a = a_decides ? 1 : lesser, weight_b = a_decides ? lesser : 1;
-  contact.even = lesser > 0.5;
+  contact.even = std::min(weight_a, weight_b) > 0.5 * std::max(weight_a, weight_b);
+  const std::array<double, 3>&grad_a = a_slope.gradient, &grad_b = b_slope.gradient;
   for (unsigned a = 0; a < 3; ++a) contact.normal[a] = weight_b * grad_b[a] - weight_a * grad_a[a];
   const double length = std::sqrt(square(contact.normal.data()));
   for (double& n : contact.normal) n /= length;

@@ -156,6 +156,28 @@ FieldArray level_field(const Simulation& sim, int body) {
           }};
 }
 
+/// How far points are stretched, and which have lost a side (simulation/torn_points.hpp).
+void add_fracture(const Simulation& sim, int body, BodyFrame& out) {
+  const auto all = std::make_shared<const FractureOfPoints>(fracture_of(sim, body));
+  out.fields.push_back({"grid_stretch",
+                        "1",
+                        "distance of what were neighbours over the reach of the shape function",
+                        1,
+                        {},
+                        [all](std::size_t first, std::size_t count, double* to) {
+                          std::copy_n(all->stretch.data() + first, count, to);
+                        }});
+  out.fields.push_back(
+      {"torn",
+       "1",
+       "1: sound, but no point of its body is left on one side (numerical fracture)",
+       1,
+       {},
+       [all](std::size_t first, std::size_t count, double* to) {
+         for (std::size_t k = 0; k < count; ++k) to[k] = all->torn[first + k] ? 1.0 : 0.0;
+       }});
+}
+
 BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
   const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
   const Frame frame = sim.scene().frame;
@@ -178,6 +200,9 @@ BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
   add_stress(sim, body, points, out);
   if (!sim.scene().grid.refine.empty() && body.options().material_points())
     out.fields.push_back(level_field(sim, b));
+  if (sim.scene().method.numerical_fracture == NumericalFracture::watch &&
+      body.options().material_points() && !body.options().rigid())
+    add_fracture(sim, b, out);
   for (int s = 0; s < sim.set_count() && part != DrawnSets::points; ++s)
     if (sim.set(s).body == b && sim.is_mesh_set(s)) out.mesh = frame_mesh(sim, s);
   if (!asked_for(sim.scene(), kFragmentField)) return out;

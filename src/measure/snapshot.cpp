@@ -81,6 +81,28 @@ void add_particles(const Simulation& sim, Json& j) {
   j["stabilisation_heat"] = Json::of(sim.audit().stabilisation);
 }
 
+void add_torn_points(const Simulation& sim, std::vector<Quantity>& row) {
+  if (sim.scene().method.numerical_fracture == NumericalFracture::ignore) return;
+  const TornPoints& points = sim.torn_points();
+  add(row, "stretched_points", "1", static_cast<double>(points.stretched));
+  add(row, "torn_points", "1", static_cast<double>(points.torn));
+  add(row, "torn_mass", "kg", points.torn_mass);
+  add(row, "greatest_stretch", "1", points.greatest_stretch);
+}
+
+void add_torn_points(const Simulation& sim, Json& j) {
+  if (sim.scene().method.numerical_fracture == NumericalFracture::ignore) return;
+  const TornPoints& points = sim.torn_points();
+  Json& out = j["numerical_fracture"];
+  out["stretched_points"] = Json::of(static_cast<std::int64_t>(points.stretched));
+  out["torn_points"] = Json::of(static_cast<std::int64_t>(points.torn));
+  out["torn_mass"] = Json::of(points.torn_mass);
+  out["greatest_stretch"] = Json::of(points.greatest_stretch);
+  for (std::size_t b = 0; b < points.torn_by_body.size(); ++b)
+    out["torn_points_of"][sim.bodies()[b]->name()] =
+        Json::of(static_cast<std::int64_t>(points.torn_by_body[b]));
+}
+
 /// Points of the blocks of a level.
 std::size_t points_at(const Simulation& sim, int level) {
   std::size_t count = 0;
@@ -105,6 +127,11 @@ void add_levels(const Simulation& sim, Json& j) {
   j["split_points"] = Json::of(static_cast<std::int64_t>(sim.audit().split_points));
   j["merged_points"] = Json::of(static_cast<std::int64_t>(sim.audit().merged_points));
   j["level_heat"] = Json::of(sim.audit().level_heat);
+}
+
+void add_points(const Simulation& sim, std::vector<Quantity>& row) {
+  add_levels(sim, row);
+  add_torn_points(sim, row);
 }
 
 }  // namespace
@@ -139,7 +166,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "energy_error_fraction", "1", a.error_fraction());
   if (sim.mesh() != nullptr) add_elements(sim, row);
   add_particles(sim, row);
-  add_levels(sim, row);
+  add_points(sim, row);
   add(row, "mass", "kg", t.mass);
   const Frame frame = sim.scene().frame;
   for (int k = 0; k < dimension(frame); ++k)
@@ -218,6 +245,7 @@ Json audit_json(const Simulation& sim) {
   if (sim.mesh() != nullptr) add_elements(sim, j);
   add_particles(sim, j);
   add_levels(sim, j);
+  add_torn_points(sim, j);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);
   j["energy_residual_fraction"] = Json::of(start > 0 ? residual / start : residual);

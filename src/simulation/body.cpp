@@ -101,7 +101,8 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
          .face_loads = !loads_of(scene, index).empty(),
          .walls = has_wall(scene),
          .reference_position = wants(scene, field::ReferencePosition::info),
-         .deformation = wants(scene, field::DeformationGradient::info) || strained(scene, index)},
+         .deformation = wants(scene, field::DeformationGradient::info) || strained(scene, index) ||
+                        method.numerical_fracture == NumericalFracture::watch},
         layout_);
   }
   add_stages(factory);

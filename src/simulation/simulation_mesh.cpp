@@ -120,6 +120,12 @@ void Simulation::let_bodies_meet() {
   encounter_ = std::move(contact);
 }
 
+void Simulation::look_for_torn_points() {
+  if (scene_.method.numerical_fracture == NumericalFracture::ignore) return;
+  torn_ = krater::look_for_torn_points(*this);
+  watch_points(*this, warnings_);
+}
+
 void Simulation::look_at_elements() {
   if (!mesh_) return;
   health_ = mesh_->health();

@@ -140,6 +140,21 @@ void watch(const Simulation& sim, Warnings& warnings) {
   watch_energy(sim, warnings);
 }
 
+void watch_points(const Simulation& sim, Warnings& warnings) {
+  const TornPoints& points = sim.torn_points();
+  std::string where;
+  for (std::size_t b = 0; b < points.torn_by_body.size(); ++b)
+    if (points.torn_by_body[b] > 0)
+      where += fmt::format("{}{} of {}", where.empty() ? "" : ", ", points.torn_by_body[b],
+                           sim.bodies()[b]->name());
+  warnings.count(
+      "numerical_fracture", static_cast<double>(points.torn), sim.time(),
+      fmt::format("sound points have lost each other on the grid ({}; stretched to {:.2g} "
+                  "times its reach): what parts there is numerical, no law; smaller "
+                  "cells, more points, elements or a law that fails before would tell",
+                  where, points.greatest_stretch));
+}
+
 void watch_elements(const Simulation& sim, Warnings& warnings) {
   const MeshHealth& mesh = sim.elements();
   const double most = sim.audit().most_folded, elements = static_cast<double>(mesh.elements);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,41 @@ void sweep(const std::string& frame, const std::vector<Meeting>& meetings,
       }
       if (m.touches) CHECK(pairs(frame, m, 1e-3, offset) > 0);
     }
+}
+
+/// Thirty wedges about a node, the first of them wedge `first`. Wedges 28 and 29 approach each
+/// other, every other two part. Momenta of these two along the grid, after a step.
+std::array<double, 4> wedges(int first) {
+  constexpr int kWedges = 30;
+  const double width = 2 * std::numbers::pi / kWedges;
+  std::string bodies;
+  for (int i = 0; i < kWedges; ++i) {
+    const int k = (first + i) % kWedges;
+    const double a = (k + 0.13) * width, middle = a + 0.5 * width;
+    double vx = 100 * std::cos(middle), vz = 100 * std::sin(middle);
+    const double meet = a + (k == 28 ? width : 0);  // the face between the two
+    const double push = k == 28 ? 25 : (k == 29 ? -25 : 0);
+    vx -= push * std::sin(meet);
+    vz += push * std::cos(meet);
+    const auto corner = [&](double at) {
+      return "[" + std::to_string(6 * std::cos(at)) + ", " + std::to_string(6 * std::sin(at)) + "]";
+    };
+    bodies += "  w" + std::to_string(k) +
+              ": {material: steel, thin: allowed, shape: {extrusion: {axis: y, min: -1, max: 1, "
+              "polygon: [[0, 0], " +
+              corner(a) + ", " + corner(a + width) + "]}}, velocity: [" + std::to_string(vx) +
+              ", " + std::to_string(vz) + "]}\n";
+  }
+  Run run = start_text(
+      "frame: plane_strain\ngrid: {cell: 1, box: {min: [-12, -12], max: [12, 12]}}\ntime: {end: "
+      "1}\nmaterials: {steel: {density: 7850, youngs_modulus: 200e9, poisson_ratio: 0.3, eos: "
+      "linear, strength: elastic}}\nbodies:\n" +
+      bodies + "contact: {}\n");
+  run.sim->step(1e-9);
+  const auto of = [&](int wedge) {
+    return run.sim->totals((wedge - first + kWedges) % kWedges).momentum;
+  };
+  return {of(28)[0], of(28)[1], of(29)[0], of(29)[1]};
 }
 
 /// Largest velocity across the plane x = 0 (r = 0), or y = 0 in 3d, of the nodes on it.
@@ -210,6 +246,12 @@ TEST_SUITE("verification") {
         CHECK(most == 0);
         CHECK(run.sim->totals().momentum[1] == doctest::Approx(start.momentum[1]).epsilon(1e-12));
       }
+  }
+
+  TEST_CASE("a node where thirty bodies meet, 435 pairs, knows each of them") {
+    // Only one pair pushes, the last or the first of the pairs: nothing depends on their order.
+    const std::array<double, 4> last = wedges(0), first = wedges(28);
+    for (std::size_t k = 0; k < 4; ++k) CHECK(last[k] == doctest::Approx(first[k]).epsilon(1e-12));
   }
 
   TEST_CASE("without friction a block slides on, whatever the normals are made of") {

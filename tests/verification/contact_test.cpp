@@ -132,11 +132,15 @@ std::array<double, 2> after_impact(int cells, double joint, double& held) {
   return {velocity_of(run, 0), velocity_of(run, 1)};
 }
 
-/// Hertz (theory D8): equal steel spheres of 1 m that meet at 17.3 m/s; the contact radius is
-/// sqrt(R d/2) = 0.1 m.
+/// Equal steel spheres of 1 m that meet at 17.3 m/s, over Hertz (theory D8): a contact radius of
+/// sqrt(R d/2) = 0.1 m. Hertz measures the approach from far away, a sphere has it from its own
+/// middle: less by (1 + nu)(3 - 2 nu) F/(2 pi E R) of a half space's, 7 % of it, so that the impact
+/// is stiffer in proportion to a/R. A sphere of elements on a wall, 80 and 160 to the radius:
+/// force 1.045, 1.044, duration 0.965, 0.965 of Hertz; at a/R = 0.05 1.027, 0.989.
 struct Hertz {
-  double peak_force, duration;  ///< over the exact ones
+  double peak_force, duration;  ///< over those of Hertz
 };
+constexpr Hertz kElements{1.0437, 0.9647};
 
 /// m x'' = -k x^1.5 by small steps: greatest force, and time from 10 to 90 % of the impulse.
 Hertz hertz_exact(double mass, double k, double speed) {
@@ -310,18 +314,22 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("Hertz: force and duration of the impact of two spheres") {
+    double before = 1;
     for (const int cells : {20, 40}) {
       const Hertz h = spheres(cells);
       MESSAGE(cells, " cells per radius: peak force ", h.peak_force, ", duration ", h.duration,
               " of Hertz'");
-      CHECK(h.peak_force == doctest::Approx(1).epsilon(0.05));
-      CHECK(h.duration == doctest::Approx(1).epsilon(0.05));
+      const double off = std::abs(h.peak_force / kElements.peak_force - 1);
+      CHECK(off < (cells == 20 ? 0.02 : 0.01));
+      CHECK(off < before);
+      before = off;
+      CHECK(h.duration == doctest::Approx(kElements.duration).epsilon(0.05));
     }
   }
 
   TEST_CASE("oblique plates a thousandth of a cell apart slide past each other") {
-    // The joint's normal errs by 1 to 2 % on lattices at 20 degrees to it, so the plates part at
-    // that share of the sliding speed until the gap is seen; along the joint nothing may happen.
+    // What the joint's normals err by the plates part at, in shares of the sliding speed, until the
+    // gap is seen; along the joint nothing may happen. Regression of points on lattices errs more.
     for (const std::string normal : {"volume_gradient", "logistic_regression"}) {
       const std::string box = "{rotate: {axis: y, angle: 20 degree, shape: {box: {min: [-0.03, ";
       Run run = start_text(
@@ -336,8 +344,8 @@ TEST_SUITE("verification") {
       const double x = velocity_of(run, 0, 0), z = velocity_of(run, 0, 1);
       const double along = 0.939693 * x - 0.342020 * z, across = 0.342020 * x + 0.939693 * z;
       MESSAGE(normal, ": lower plate ", along, " m/s along, ", across, " m/s across, of 1000");
-      CHECK(std::abs(along) < 2);
-      CHECK(std::abs(across) < 30);
+      CHECK(std::abs(along) < (normal == "volume_gradient" ? 1 : 2));
+      CHECK(std::abs(across) < (normal == "volume_gradient" ? 1 : 30));
     }
   }
 

@@ -13,12 +13,14 @@
 /// Joint: of the node and those around it the one with the largest min(phi_A, phi_B), the nearest
 /// of those that are equal, their mean where several are as near: what mirrors, mirrors. Normal and
 /// gap are judged there, for in the tail of a body its gradient means nothing.
-/// Normal: n ~ |grad phi_B|^80 grad phi_B - |grad phi_A|^80 grad phi_A, central differences
-/// smoothed across: the steeper filling decides, for the gradient of a corner is weaker and points
-/// aside; equal ones are averaged; of a fluid and a solid the solid decides, for the points of a
-/// fluid lie anyhow. `normal: logistic_regression` takes n from the points instead
-/// (contact/contact_regression.hpp), where neither body is the wider one. In nodes of a plane that
-/// mirrors n keeps no component across it.
+/// Normal: n ~ w_B grad phi_B - w_A grad phi_A, with the lengths of central differences smoothed
+/// across and the directions of planes through the faces (contact/face_plane.hpp), as far as these
+/// are flat. With their trust t in [0, 1], w = t^4 + 1 - max(t_A^4, t_B^4): a flat face decides
+/// against a corner, equal ones are averaged, and of two corners the difference counts, in which
+/// what both lean aside cancels; of a fluid and a solid the solid decides, for a fluid's points lie
+/// anyhow. `normal: logistic_regression` takes n from the points instead
+/// (contact/contact_regression.hpp), where neither body decides. In nodes of a plane that mirrors n
+/// keeps no component across it.
 /// Touching (contact/contact_joint.cpp): bodies are apart as soon as one grid axis parts them.
 /// Along each axis that has A on one side of the joint and B on the other, either body's reach
 /// comes from its own three fillings:
@@ -143,8 +145,16 @@ class ContactSet {
     double* node;
     std::array<double, 3> velocity;
   };
+  /// Gradient of a filling at a joint.
+  struct Slope {
+    std::array<double, 3> gradient{};  ///< [1/cell]
+    double trust = 0;                  ///< in its direction, 0 to 1
+    std::uint64_t of = 0;              ///< which filling
+  };
   struct Scratch {
-    std::vector<double> filling;  ///< per field, padded by two nodes on each side
+    std::vector<double> filling;  ///< per field, padded on each side
+    std::vector<Slope> slopes;    ///< at the same nodes, found when first asked for
+    std::uint64_t fillings = 0;   ///< until now
     std::vector<Before> before;   ///< fields of a node, before they push
   };
   /// A deformable field's node, struck by a rigid body.
@@ -159,10 +169,14 @@ class ContactSet {
     int slot, local;  ///< neighbour 0..2 along the axis, node in it
     double inverse;   ///< 1/covered
   };
-  using AxisLinks = std::array<std::array<AxisLink, 12>, 3>;
+  using AxisLinks = std::array<std::array<AxisLink, 14>, 3>;
   const GridGeometry& geometry(int level) const {
     return geometries_[static_cast<std::size_t>(level)];
   }
+  /// Radius of the windows that planes of faces are fitted in [cells]: the wider the less they
+  /// feel the lattice; in 3D the 27 nodes of one cell are enough.
+  int window() const { return geometry_.dimension == 3 ? 1 : 2; }
+  int halo() const { return window() + 1; }  ///< nodes around a block, for a joint is one off
   AxisLinks axis_links(const BlockKey& key) const;
   double covered(const GridGeometry& geometry, int axis, int index) const;
   bool is_fluid(int body) const {
@@ -193,10 +207,11 @@ class ContactSet {
   static RigidShare& share_of(Group& group, int body);
   void link(const BlockGrid& grid, Group& group) const;
   void fill(const BlockGrid& grid, const Group& group, Scratch& scratch) const;
-  std::array<double, 3> gradient(const double* phi) const;
+  Slope slope_at(const double* phi) const;
+  Slope slope_at(Scratch& scratch, int field, const Joint& joint) const;
   Joint joint_near(const double* phi_a, const double* phi_b, int at) const;
   double gap(const double* phi_a, const double* phi_b) const;
-  bool find_contact(const Scratch& scratch, int at, Contact& contact) const;
+  bool find_contact(Scratch& scratch, int at, Contact& contact) const;
   bool keep_in_planes(const BlockKey& key, Contact& contact) const;
   /// Returns the impulse on a.
   Triple exchange(double* a, double* b, const Contact& contact, double mu, ContactWork& sum) const;

@@ -18,6 +18,7 @@
 #include "krater/simulation/body.hpp"
 #include "krater/simulation/detonation.hpp"
 #include "krater/simulation/refinement.hpp"
+#include "krater/simulation/torn_points.hpp"
 #include "krater/simulation/warnings.hpp"
 
 namespace krater {
@@ -80,6 +81,10 @@ class Simulation {
   void judge_energy(bool last) const;
   /// How the elements are, for a row of the history: what is said of it too.
   void look_at_elements();
+  /// Which points have lost each other (simulation/torn_points.hpp), for a row of the history;
+  /// nothing unless the scene asks.
+  void look_for_torn_points();
+  const TornPoints& torn_points() const { return torn_; }  ///< as last looked for
   /// Whether they lie on themselves, for a frame: it takes longer.
   void look_for_overlap();
   const MeshHealth& elements() const { return health_; }  ///< as last looked at
@@ -200,6 +205,7 @@ class Simulation {
   std::unique_ptr<SphStep> sph_;
   std::vector<Kinematics*> movers_;
   MeshHealth health_;
+  TornPoints torn_;
   StepClock clock_;
   TimeStepLimit limit_;  ///< of the next step
   bool broken_ = false;

@@ -49,6 +49,8 @@ std::string sentence(const Warning& warning);
 
 /// What the audit of a simulation says by now; called after every step.
 void watch(const Simulation& sim, Warnings& warnings);
+/// What the points say, as last looked at: those that have lost each other.
+void watch_points(const Simulation& sim, Warnings& warnings);
 /// What the elements say, as last looked at: folded ones, and energy that only holds hourglasses.
 void watch_elements(const Simulation& sim, Warnings& warnings);
 

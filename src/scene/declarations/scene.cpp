@@ -201,7 +201,11 @@ const BlockInfo& method_block() {
         "that gives the new one",
         {number("1", Range::fraction)},
         "0.5"},
-       {"dormant_blocks", "blocks in which nothing moves are passed over", {flag()}, "true"}}};
+       {"dormant_blocks", "blocks in which nothing moves are passed over", {flag()}, "true"},
+       {"numerical_fracture",
+        "whether it is watched where sound points lose each other on the grid",
+        {word({"ignore", "watch"})},
+        "ignore"}}};
   return info;
 }
 

@@ -8,7 +8,8 @@ enum class Shape { quadratic_bspline, gimp, linear };
 enum class Transfer { tflip, flip, apic, xpic };
 enum class Update { usl, musl, usf };
 enum class Reference { current, initial, adaptive };
-enum class GridPressure { fluids, none, all };  ///< bodies of mpm/grid_pressure.hpp
+enum class NumericalFracture { ignore, watch };  ///< simulation/torn_points.hpp
+enum class GridPressure { fluids, none, all };   ///< bodies of mpm/grid_pressure.hpp
 
 struct MethodOptions {
   Shape shape = Shape::quadratic_bspline;
@@ -25,6 +26,7 @@ struct MethodOptions {
   double energy_alpha = 0.5;                 ///< Algorithm 1: share of the pressure of the start
   bool dormant_blocks = true;                ///< skip what is at rest (the bits are the same)
   Reference reference = Reference::current;  ///< configuration of the weights (theory 3)
+  NumericalFracture numerical_fracture = NumericalFracture::ignore;
   double refresh_strain = 0.3;  ///< adaptive: largest Green-Lagrange strain before a new reference
 };
 
