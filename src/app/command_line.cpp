@@ -114,6 +114,13 @@ void add_models(CLI::App& app, ModelQuery& query) {
   command->add_flag("--json", query.json, "print one JSON object instead of text")->excludes(cards);
 }
 
+void add_schema(CLI::App& app, RunOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("schema", "print the JSON schema of scenes, for editors that know YAML");
+  command->add_option("of", options.scene, "scene (the default), or point: loading paths")
+      ->check(CLI::IsMember({"scene", "point"}));
+}
+
 /// CLI11 says only that a command is missing.
 bool report_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
@@ -169,10 +176,7 @@ int command_line(int argc, char** argv) {
   point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");
   point_command->add_flag("--quiet", options.quiet, "no table, no notes");
   add_models(app, query);
-  CLI::App* schema_command =
-      app.add_subcommand("schema", "print the JSON schema of scenes, for editors that know YAML");
-  schema_command->add_option("of", options.scene, "scene (the default), or point: loading paths")
-      ->check(CLI::IsMember({"scene", "point"}));
+  add_schema(app, options);
   CLI::App* study_command = app.add_subcommand(
       "study", "many runs of one scene: accuracy, settings, effects, limits, calibration");
   study_command->set_help_flag();  // the package's own
