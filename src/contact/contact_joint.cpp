@@ -32,7 +32,9 @@ ContactSet::Slope ContactSet::slope_at(const double* phi) const {
   for (double& n : guess) n /= length;
   std::array<double, 3> inward = guess;
   const ShapeSpread spread = shape_spread(linear_);
-  for (int radius = 1; radius <= window(); ++radius) {  // the wider one has the last word
+  // The wider one has the last word. Near edges of levels two nodes around a block are whole.
+  const int widest = geometries_.size() > 1 ? 1 : window();
+  for (int radius = 1; radius <= widest; ++radius) {
     const FacePlane face = fit_face(nodes, guess, radius, spread);
     for (unsigned a = 0; a < 3; ++a)
       inward[a] = (1 - face.trust) * inward[a] - face.trust * face.normal[a];
