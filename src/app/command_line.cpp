@@ -114,11 +114,12 @@ void add_models(CLI::App& app, ModelQuery& query) {
   command->add_flag("--json", query.json, "print one JSON object instead of text")->excludes(cards);
 }
 
-void add_schema(CLI::App& app, RunOptions& options) {
+CLI::App& add_schema(CLI::App& app, RunOptions& options) {
   CLI::App* command =
       app.add_subcommand("schema", "print the JSON schema of scenes, for editors that know YAML");
   command->add_option("of", options.scene, "scene (the default), or point: loading paths")
       ->check(CLI::IsMember({"scene", "point"}));
+  return *command;
 }
 
 /// CLI11 says only that a command is missing.
@@ -176,7 +177,7 @@ int command_line(int argc, char** argv) {
   point_command->add_option("-o,--output", options.output, "results folder (default: FILE_out)");
   point_command->add_flag("--quiet", options.quiet, "no table, no notes");
   add_models(app, query);
-  add_schema(app, options);
+  const CLI::App& schema = add_schema(app, options);
   CLI::App* study_command = app.add_subcommand(
       "study", "many runs of one scene: accuracy, settings, effects, limits, calibration");
   study_command->set_help_flag();  // the package's own
@@ -190,8 +191,8 @@ int command_line(int argc, char** argv) {
     say(e.what());
     return kBadInput;
   }
-  return dispatch({*run_command, *check_command, *point_command, *study_command, *schema_command},
-                  options, query);
+  return dispatch({*run_command, *check_command, *point_command, *study_command, schema}, options,
+                  query);
 }
 
 }  // namespace krater
