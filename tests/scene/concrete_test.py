@@ -116,7 +116,7 @@ def mistakes():
     refused("a model that cannot be generated", [r"materials\.m\.card\.concrete\.model", "known: karagozian_case"],
             "card: {concrete: {fc: 39 MPa, model: holmquist}}")
     refused("no strength to generate from", ["missing key 'fc'", "in Pa"], "card: {concrete: {model: karagozian_case}}")
-    refused("a card of neither kind", ["what one is generated from"], "card: {steel: {}}")
+    refused("a card of neither kind", ["what one is made from", "keywords:"], "card: {steel: {}}")
     refused("a model beside a strength", ["gives strength, pressure and damage: remove strength"],
             "card: concrete_48, strength: {von_mises: {Y: 1 MPa}}")
     whole = (ROOT / "inputs/materials/concrete_48.yaml").read_text(encoding="utf-8")
