@@ -69,7 +69,7 @@ def craters(study):
             rows.append([f"{NAMES[metal]}, {speed / 1000:g} km/s, {n} cells", value(run, "depth", 1e3, 2), value(run, "width", 1e3, 1),
                          *(f"{1e3 * x:.1f}" for x in expected), off(depth, expected), *costs(run)])
         drawn.append((f"{NAMES[metal]}\n{speed / 1000:g} km/s", expected, list(runs.values())[-1], "depth"))
-    study.add("## Craters", "A 10 mm sphere on a block of 100 x 60 mm ([inputs/hypervelocity/crater.yaml]"
+    study.add("## Craters", "A 10 mm sphere on a block 200 mm wide and 120 mm thick ([inputs/hypervelocity/crater.yaml]"
               "(../../inputs/hypervelocity/crater.yaml)): depth and width of the crater at 60 µs, 1 mm below the face. \"Off\" is the "
               "distance to the nearest formula in per cent, 0 between them.")
     study.add_table(["shot, cells in the sphere's radius", "depth mm", "width mm", *(f"{name} mm" for name in CRATERS), "off %",
