@@ -44,15 +44,7 @@ class Merging {
  public:
   Merging(Patch& patch, const GridGeometry& g, const BodyKernelData& body, const PointSize& size,
           const MergePlan& plan)
-      : points_{patch.points}, g_{g}, c_{body.columns}, size_{size}, plan_{plan} {
-    most_.reserve(plan.entries.size());
-    for (const MergePlan::Entry& e : plan.entries) {
-      double most = 0;
-      for (int i = 0; e.history && i < points_.count(); ++i)
-        most = std::max(most, std::abs(points_.at(e.place, i)));
-      most_.push_back(most);
-    }
-  }
+      : points_{patch.points}, g_{g}, c_{body.columns}, size_{size}, plan_{plan} {}
 
   bool crowded() const {
     double worth = 0;
@@ -60,6 +52,7 @@ class Merging {
     return points_.count() > kCrowded * worth;
   }
   void run() {
+    find_most();
     std::vector<std::pair<int, int>> light;  // bin, point
     for (int i = 0; i < points_.count(); ++i)
       if (share(i) < kLight) light.emplace_back(bin(i), i);
@@ -91,6 +84,14 @@ class Merging {
       out = out * bins + floor_mod(static_cast<int>(std::floor(n * t)), bins);
     }
     return out;
+  }
+  void find_most() {
+    for (const MergePlan::Entry& e : plan_.entries) {
+      double most = 0;
+      for (int i = 0; e.history && i < points_.count(); ++i)
+        most = std::max(most, std::abs(points_.at(e.place, i)));
+      most_.push_back(most);
+    }
   }
   static int floor_mod(int i, int n) { return i - floor_div(i, n) * n; }
 
