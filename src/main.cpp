@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/app/command_line.hpp"
+#include "krater/core/ranks.hpp"
 
-int main(int argc, char** argv) { return krater::command_line(argc, argv); }
+int main(int argc, char** argv) {
+  krater::ranks::start(argc, argv);
+  const int code = krater::command_line(argc, argv);
+  krater::ranks::finish();
+  return code;
+}

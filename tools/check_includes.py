@@ -20,14 +20,15 @@ LAYERS = {
     "materials": {"core", "points"},  # a law knows no dimension, mesh or method
     "contact": {"core", "points", "grid"},  # nodes and fields, for every kinematics
     "kinematics": {"core", "points", "grid", "contact", "geometry"},
-    "kinematics/mpm": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics"},
+    "distribute": {"core", "points", "grid", "kinematics"},  # blocks on several ranks
+    "kinematics/mpm": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics", "distribute"},
     "kinematics/mesh": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "kinematics/sph": {"core", "points", "geometry", "materials", "contact", "kinematics"},
     "output": {"core", "points", "grid", "geometry"},
     "scene": {"core", "points", "grid", "geometry", "materials", "contact", "kinematics", "kinematics/mpm", "kinematics/mesh",
               "kinematics/sph", "output"},
 }
-for folder, also in {"simulation": {"scene", "kinematics"}, "measure": {"simulation"}, "point_driver": {"simulation"},
+for folder, also in {"simulation": {"scene", "kinematics", "distribute"}, "measure": {"simulation"}, "point_driver": {"simulation"},
                      "app": {"measure", "point_driver"}}.items():
     LAYERS[folder] = LAYERS["scene"] | {"scene", "simulation", "kinematics"} | also - {folder}
 LAYERS["main"] = {"app", "core"}
@@ -40,6 +41,8 @@ LIBRARIES = [
     (r"(hdf5|hdf5_hl|H5\w+)\.h", ["output"]),
     (r"isa-l/.*\.h", ["output"]),
     (r"omp\.h", ["core/parallel"]),
+    (r"mpi\.h", ["core/ranks", "distribute/partition"]),
+    (r"trilinos/zoltan\.h", ["distribute/partition"]),
     (r"(CLI|spdlog)/", ["app", "main"]),
     (r"[xp]mmintrin\.h", ["core/simd", "core/parallel"]),  # the flush-to-zero flag of each thread
     (r"(\w*intrin|cpuid|arm_neon|arm_sve)\.h", ["core/simd"]),

@@ -15,6 +15,7 @@
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/isa_level.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/output/results.hpp"
 #include "krater/scene/schema.hpp"
 
@@ -66,6 +67,9 @@ struct ModelQuery {
 
 int dispatch(const Commands& commands, const RunOptions& options, const ModelQuery& query) {
   try {
+    if (!ranks::alone() && !options.accuracy.empty())
+      throw InputError("--accuracy makes many runs; start krater without mpirun");
+    if (!ranks::first() && !commands.run.parsed()) return kDone;
     if (commands.study.parsed()) return become_study(words_of_study(commands.study));
     if (!options.accuracy.empty()) return become_study(words_of_accuracy(options));
     if (commands.run.parsed()) return run(options);
@@ -141,8 +145,9 @@ int command_line(int argc, char** argv) {
   app.name("krater");
   const Version v = version();
   app.set_version_flag("--version", [v] {
-    return fmt::format("krater {} ({}, {}, {})\nbuilt with: {}\nruns with: {}", v.program,
-                       v.revision, v.compiler, v.build, v.options, name_of(best_isa_level()));
+    return fmt::format("krater {} ({}, {}, {})\nbuilt with: {}\nruns with: {}, {}", v.program,
+                       v.revision, v.compiler, v.build, v.options, name_of(best_isa_level()),
+                       ranks::description());
   });
   app.require_subcommand(1);
   RunOptions options;

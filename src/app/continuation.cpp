@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/continuation.hpp"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
@@ -50,6 +52,10 @@ std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint,
                    ": it belongs to another scene; restart with the scene and the --set options it "
                    "was written with (title, time, output, measures, references may change):" +
                    list);
+}
+
+std::string default_output(const std::string& scene) {
+  return std::filesystem::path(scene).stem().string() + "_out";
 }
 
 }  // namespace krater

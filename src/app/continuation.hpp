@@ -24,4 +24,7 @@ std::string continuation(const RunOptions& options, const std::string& folder);
 std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint,
                                                 const std::string& file, const Scene& scene);
 
+/// Where results go that nobody gave a place.
+std::string default_output(const std::string& scene);
+
 }  // namespace krater

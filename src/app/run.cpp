@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/continuation.hpp"
+#include "app/follow.hpp"
 #include "app/signals.hpp"
 #include "krater/app/closing.hpp"
 #include "krater/app/effects.hpp"
@@ -21,6 +22,7 @@
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/core/stopwatch.hpp"
 #include "krater/measure/gauges.hpp"
 #include "krater/measure/measurements.hpp"
@@ -30,10 +32,6 @@
 namespace krater {
 
 namespace {
-
-std::string default_output(const std::string& scene) {
-  return std::filesystem::path(scene).stem().string() + "_out";
-}
 
 class Runner {
  public:
@@ -49,8 +47,10 @@ class Runner {
         results_{options.output.empty() ? default_output(options.scene) : options.output,
                  !options.restart.empty()},
         watch_{watch} {}
+  Runner(const Runner&) = delete;
+  ~Runner() { sim_.dismiss(); }
 
-  int go();
+  int go(Readiness& ready);
 
  private:
   void begin();
@@ -145,6 +145,7 @@ void Runner::resume() {
 }
 
 std::vector<Quantity> Runner::history_columns() {
+  sim_.assemble();
   sim_.look_at_elements();
   sim_.look_for_torn_points();
   std::vector<Quantity> row = history_row(sim_);
@@ -161,6 +162,7 @@ std::vector<Quantity> Runner::history_titles() const {
 void Runner::write_history() { results_.write_history(history_columns()); }
 
 void Runner::write_frame(double time) {
+  sim_.assemble();
   if (sim_.steps() > 0) sim_.look_for_overlap();
   OutputFrame frame = make_frame(sim_, frame_);
   frame.time = time;
@@ -169,6 +171,7 @@ void Runner::write_frame(double time) {
 }
 
 void Runner::write_checkpoint() {
+  sim_.assemble();
   Checkpoint c = sim_.save();
   c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
   measurements_.save(c, scene_);
@@ -183,6 +186,7 @@ void Runner::write_checkpoint() {
 void Runner::watch_time_step() {
   constexpr double kTold = 20;
   if (foreseen_dt_ <= kTold * sim_.dt_free()) return;
+  sim_.assemble();
   const double steps = (scene_.time.end - sim_.time()) / sim_.dt_free();
   sim_.warnings().add(
       "short_time_step", sim_.time(),
@@ -203,6 +207,7 @@ void Runner::write_due(Schedule& frames, Schedule& history) {
       results_.write_history(columns);
       history.advance(sim_.time());
     }
+    if (gauges_.due(sim_.time()) || outcomes_.due(sim_.time())) sim_.assemble();
     gauges_.look(sim_);
     ends = outcomes_.look(sim_, columns);
     if (ends && !row) write_history();
@@ -211,8 +216,10 @@ void Runner::write_due(Schedule& frames, Schedule& history) {
   frames.advance(sim_.time());
 }
 
-int Runner::go() {
+int Runner::go(Readiness& ready) {
   begin();
+  ready.agree();
+  sim_.distribute();
   watch_.lap(static_cast<std::size_t>(Outside::setup));
   listen_to_signals();
   Progress progress{sim_, options_.quiet};
@@ -304,7 +311,6 @@ int Runner::fail(const std::string& message, Progress& progress) {
 }
 
 Json Runner::summary(const std::string& status, double seconds) {
-  const Version v = version();
   Json j;
   j["title"] = Json::of(scene_.title);
   j["status"] = Json::of(status);
@@ -313,6 +319,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["time"] = Json::of(sim_.time());
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
+  sim_.assemble();
   sim_.look_at_elements();
   sim_.look_for_torn_points();
   measurements_.summarize(sim_, j);
@@ -338,11 +345,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   machine["set"] = Json::array();
   for (const std::string& setting : options_.overrides)
     machine["set"].items.push_back(Json::of(setting));
-  Json& program = j["program"];
-  program["version"] = Json::of(v.program);
-  program["revision"] = Json::of(v.revision);
-  program["compiler"] = Json::of(v.compiler);
-  program["build"] = Json::of(v.build);
+  j["program"] = program_json();
   return j;
 }
 
@@ -387,9 +390,11 @@ int run(const RunOptions& options) {
   set_threads(options.threads);
   flush_denormals();
   Stopwatch<outside_names.size()> watch;
+  Readiness ready;
   Scene scene = read_scene(options.scene, options.overrides);
   require_feasible(scene, forecast(scene));
-  return Runner{options, std::move(scene), watch}.go();
+  if (!ranks::first()) return follow(options.restart, scene, ready);
+  return Runner{options, std::move(scene), watch}.go(ready);
 }
 
 }  // namespace krater

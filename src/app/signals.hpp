@@ -10,5 +10,7 @@ extern volatile std::sig_atomic_t interrupted;  ///< how many have come
 
 /// Not before the set-up is done: until then a signal ends the program, and nothing is lost.
 void listen_to_signals();
+/// Of a rank that another one tells when to stop.
+void ignore_signals();
 
 }  // namespace krater

@@ -2,6 +2,8 @@
 // Planes that fold.
 #include <algorithm>
 
+#include "contact/boundary_sums.hpp"
+
 #include "krater/contact/boundary.hpp"
 
 namespace krater {
@@ -38,24 +40,24 @@ void BoundarySet::fold_column(Plane& plane, Column& c) const {
 }
 
 BoundaryWork BoundarySet::folded(double dt, double alpha) const {
-  BoundaryWork sum;
+  Sums sums;
   for (const Plane& plane : planes_) {
     if (!plane.condition->folds()) continue;
     for (const Column& c : plane.columns) {
-      if (!c.moves_points) continue;
+      if (!c.moves_points || !c.counted) continue;
       const Folded& f = c.folded;
       for (int a = 0; a < 3; ++a) {
         if (!plane.odd(a)) continue;
         const auto k = static_cast<unsigned>(a);
         const double change = c.inner[moved::change + a],
                      minus = c.inner[moved::velocity + a] - change;
-        sum.impulse[k] -=
+        sums.all[3 + k] -=
             2 * (f.ghost_mass * change + dt * f.ghost_force[k]) + dt * f.plane_force[k] +
             (1 - alpha) * (2 * (f.ghost_momentum[k] + f.ghost_mass * minus) + f.plane_momentum[k]);
       }
     }
   }
-  return sum;
+  return together(sums);
 }
 
 void BoundarySet::mirror(int level) const {

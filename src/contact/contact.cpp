@@ -105,6 +105,7 @@ void ContactSet::relink(const BlockGrid& grid) {
       }
       group.first = n;
       group.fields = static_cast<int>(end - n);
+      group.counted = blocks[n].counted;
       group.sources.clear();
       group.begin_step();
     }
@@ -123,8 +124,7 @@ ContactWork ContactSet::apply(BlockGrid& grid, const std::vector<PointColumns>& 
   if (rigid.any()) foretell(grid, rigid);
   for_each(groups_.size(),
            [&](std::size_t g) { results_[g] = exchange_group(grid, groups_[g], rigid); });
-  ContactWork sum;
-  for (const ContactWork& r : results_) sum.add(r);
+  ContactWork sum = total();
   if (!projection) hand_over(rigid, sum);
   return sum;
 }
@@ -335,18 +335,6 @@ void ContactSet::exchange_node(BlockGrid& grid, Group& group, std::size_t first,
   any =
       any || (!group.rigid_pushes.empty() && group.rigid_pushes.back().loss == group.heat.count());
   if (any) group.heat.close();
-}
-
-double ContactSet::heat() {
-  heats_.resize(groups_.size());
-  for_each(groups_.size(), [&](std::size_t g) { heats_[g] = groups_[g].heat.book(); });
-  double sum = 0;
-  for (const double heat : heats_) sum += heat;
-  return sum;
-}
-
-void ContactSet::give(Impulses& impulses) const {
-  for (const Group& group : groups_) impulses.add(group.given);
 }
 
 ContactWork ContactSet::exchange_group(BlockGrid& grid, Group& group,

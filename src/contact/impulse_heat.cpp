@@ -5,9 +5,9 @@
 
 namespace krater {
 
-double ImpulseHeat::book() const {
+ReproducibleSum ImpulseHeat::book() const {
   constexpr int velocity = 0, change = 4;  // [v+, m, dv, k]
-  double sum = 0;
+  ReproducibleSum sum;
   std::size_t first = 0;
   for (const Loss& loss : losses_) {
     double heat = loss.outside, mass = 0;
@@ -20,7 +20,7 @@ double ImpulseHeat::book() const {
     if (mass > 0)
       for (std::size_t i = first; i < loss.end; ++i) pushed_[i].node[moved::work] += heat / mass;
     first = loss.end;
-    sum += heat;
+    if (loss.counted) sum += heat;
   }
   return sum;
 }

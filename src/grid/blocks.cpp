@@ -100,15 +100,49 @@ void BlockGrid::drop_patches(int body) {
 }
 
 void BlockGrid::rebuild(bool drop_empty) {
-  if (drop_empty) std::erase_if(patches_, [](const Patch& p) { return p.points.empty(); });
+  if (drop_empty) std::erase_if(patches_, [](const Patch& p) { return p.count() == 0; });
   if (!std::is_sorted(patches_.begin(), patches_.end(), before))
     std::sort(patches_.begin(), patches_.end(), before);
   for (Patch& p : patches_)
     p.field = static_cast<std::size_t>(p.body) < field_of_body_.size()
                   ? field_of_body_[static_cast<std::size_t>(p.body)]
                   : FieldId{};
+  if (owner_) find_near();
   make_node_blocks();
   link_patches();
+}
+
+std::vector<BlockKey> keys_within(std::vector<BlockKey> keys, int width, int dimension) {
+  const auto tidy = [&keys] {
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  };
+  tidy();
+  for (int a = 0; a < dimension; ++a) {
+    const std::size_t before = keys.size();
+    for (std::size_t k = 0; k < before; ++k)
+      for (int offset = -width; offset <= width; ++offset) {
+        if (offset == 0) continue;
+        BlockKey key = keys[k];
+        key.i[static_cast<std::size_t>(a)] += offset;
+        keys.push_back(key);
+      }
+    tidy();
+  }
+  return keys;
+}
+
+/// Which patches this rank has, and which lie around these.
+void BlockGrid::find_near() {
+  std::vector<BlockKey> own;
+  for (Patch& patch : patches_) {
+    if (patch.rank < 0) patch.rank = owner_(patch.key);
+    patch.here = patch.rank == own_;
+    if (patch.here) own.push_back(patch.key);
+  }
+  own = keys_within(std::move(own), width_, geometry().dimension);
+  for (Patch& patch : patches_)
+    patch.near = patch.here || std::binary_search(own.begin(), own.end(), patch.key);
 }
 
 /// Blocks about those of masters where cells are finer: contact looks at their volumes.
@@ -144,7 +178,8 @@ void BlockGrid::make_node_blocks() {
     return true;
   };
   for (const Patch& patch : patches_)
-    for (int c = 0; c < corners; ++c) add(at_corner(patch.key, c, 1, dimension), patch.field);
+    for (int c = 0; c < corners && patch.near; ++c)
+      add(at_corner(patch.key, c, 1, dimension), patch.field);
   if (!levels_.single()) {
     // what points see, and where it follows from nodes of the level above, these
     const std::size_t seen = node_blocks_.size();
@@ -176,9 +211,10 @@ void BlockGrid::link_patches() {
   for (std::size_t p = 0; p < patches_.size(); ++p)
     patch_index_.insert(patches_[p].key, patches_[p].body, static_cast<int>(p));
   for (Patch& patch : patches_) {
-    patch.tile.nodes.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles);
-    patch.beta.reserve(kBlockNodes);
-    for (int c = 0; c < corners; ++c) {
+    if (patch.near)
+      patch.tile.nodes.reserve(static_cast<std::size_t>(tile_nodes(dimension)) * kNodeDoubles);
+    if (patch.here) patch.beta.reserve(kBlockNodes);
+    for (int c = 0; c < corners && patch.near; ++c) {
       const int n = find_node_block(at_corner(patch.key, c, 1, dimension), patch.field);
       patch.links.node_blocks[static_cast<std::size_t>(c)] = n;
       ++node_blocks_[static_cast<std::size_t>(n)].tiles;
@@ -195,9 +231,10 @@ void BlockGrid::link_patches() {
   }
   tile_refs_.resize(static_cast<std::size_t>(first));
   for (std::size_t p = 0; p < patches_.size(); ++p)
-    for (int c = 0; c < corners; ++c) {
+    for (int c = 0; c < corners && patches_[p].near; ++c) {
       NodeBlock& block = node_blocks_[static_cast<std::size_t>(
           patches_[p].links.node_blocks[static_cast<std::size_t>(c)])];
+      if (block.tiles == 0) block.counted = patches_[p].here;
       tile_refs_[static_cast<std::size_t>(block.first_tile + block.tiles++)] = {static_cast<int>(p),
                                                                                 c};
     }

@@ -188,6 +188,11 @@ void Gauges::sample(const Simulation& sim, std::size_t g) {
     sample_points(sim, g);
 }
 
+bool Gauges::due(double time) const {
+  return std::any_of(records_.begin(), records_.end(),
+                     [time](const Record& r) { return time >= r.next; });
+}
+
 void Gauges::look(const Simulation& sim) {
   for (std::size_t g = 0; g < records_.size(); ++g)
     if (sim.time() >= records_[g].next) sample(sim, g);

@@ -130,6 +130,11 @@ bool Outcomes::judge(const Simulation& sim, const std::vector<Quantity>& row) co
   return !values.empty() && condition_(values) > 0;
 }
 
+bool Outcomes::due(double time) const {
+  return std::any_of(watched_.begin(), watched_.end(),
+                     [time](const Watched& w) { return time >= w.next; });
+}
+
 bool Outcomes::look(const Simulation& sim, const std::vector<Quantity>& row) {
   bool looked = false;
   for (std::size_t i = 0; i < watched_.size(); ++i) {

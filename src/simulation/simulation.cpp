@@ -8,6 +8,7 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/kinematics/mpm/columns.hpp"
 #include "krater/simulation/face_loads.hpp"
 #include "krater/simulation/refinement.hpp"
@@ -117,10 +118,11 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
   find_levels();
   watch_impulses();
   loads_ = make_loads();
+  plan_ranks();
   step_ = std::make_unique<MpmStep>(
       scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
                                    kernel_data_, audit_, *loads_, impulses_, carrier_kernels_.get(),
-                                   kernel_shape(scene.method.shape)});
+                                   kernel_shape(scene.method.shape), ranks_.get()});
   place_rigid_bodies();
   place_meshes();
   place_particles();
@@ -255,6 +257,7 @@ double Simulation::next_step(double until) {
   try {
     return clock_.next(std::max(limit_.rate, detonation_.rate(time())), until);
   } catch (const StepVanished& e) {
+    assemble_together();
     throw NumericalError(
         fmt::format("time step vanished: {:.3e} s < time.min_step = {:.3e} s; {}; time {:.6e} s, "
                     "step {}",
@@ -262,7 +265,8 @@ double Simulation::next_step(double until) {
   }
 }
 
-void Simulation::step(double until) {
+void Simulation::advance(double until) {
+  release();
   const double asked = next_step(until);
   rigid_.set_time(time());
   if (boundary_.set_time(time())) step_->relink();
@@ -275,10 +279,7 @@ void Simulation::step(double until) {
   try {
     taken = take_step(movers_, asked, encounter_.get());
   } catch (const StepFault& fault) {
-    broken_ = true;
-    const std::string text = describe_fault(first_points() + fault.patch, fault.fault);
-    step_->deliver_leavers();  // points under way between blocks belong to the last frame too
-    throw NumericalError(text);
+    fail_fault(fault);
   } catch (const ElementFault& fault) {
     broken_ = true;
     throw NumericalError(describe_fault(fault.set, fault.fault));
@@ -311,10 +312,21 @@ void Simulation::step(double until) {
   judge_energy(done());
 }
 
-void Simulation::judge_energy(bool last) const {
+void Simulation::fail_fault(const StepFault& fault) {
+  broken_ = true;
+  assemble_together();
+  const std::string text =
+      ranks::first() ? describe_fault(first_points() + fault.patch, fault.fault) : "";
+  release();
+  step_->deliver_leavers();  // points under way between blocks belong to the last frame too
+  throw NumericalError(text);
+}
+
+void Simulation::judge_energy(bool last) {
   try {
     EnergyWatch::check_error(audit_, scene_.time.energy_error, time(), last);
   } catch (const EnergyError& e) {  // the state is whole: its checkpoint may go on regardless
+    assemble_together();
     throw NumericalError(fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(),
                                      time(), steps()));
   }
@@ -323,6 +335,7 @@ void Simulation::judge_energy(bool last) const {
 /// Names the point where the energy is.
 void Simulation::fail_energy(const EnergyError& e) {
   broken_ = true;
+  assemble_together();
   throw NumericalError(
       fmt::format("{}; {}; time {:.6e} s, step {}", e.what(), describe_hottest(), time(), steps()));
 }

@@ -32,19 +32,23 @@ const char* text_of(FaultKind kind) {
 
 std::size_t Simulation::point_count() const {
   std::size_t n = 0;
-  for (int s = 0; s < set_count(); ++s) n += static_cast<std::size_t>(set(s).count());
+  for (int s = 0; s < first_points(); ++s) n += static_cast<std::size_t>(set(s).count());
+  for (const Patch& patch : grid_.patches()) n += static_cast<std::size_t>(patch.count());
   return n;
 }
 
 double Simulation::bytes_per_point() const {
-  double doubles = 0;
-  for (const Patch& p : grid_.patches())
+  double doubles = 0, points = 0;
+  for (const Patch& p : grid_.patches()) {
+    points += p.here ? p.points.count() : 0;
     doubles += static_cast<double>(p.points.capacity() + p.tile.nodes.size() + p.beta.size()) +
                sizeof(Patch) / 8.0;
+  }
   doubles += static_cast<double>(grid_.node_blocks().size()) * kBlockNodes * kNodeDoubles;
   if (mesh_) doubles += static_cast<double>(mesh_->memory()) / 8;
   if (sph_) doubles += static_cast<double>(sph_->memory()) / 8;
-  return 8 * doubles / static_cast<double>(std::max<std::size_t>(point_count(), 1));
+  for (int s = 0; s < first_points(); ++s) points += set(s).count();
+  return 8 * doubles / std::max(points, 1.0);  // of this rank
 }
 
 void Simulation::set_value(int s, int point, int slot, double x) {

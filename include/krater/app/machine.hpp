@@ -15,4 +15,7 @@ std::int64_t peak_resident_bytes();
 /// Machine, threads and what the run took on them: what is not the same on another machine.
 Json machine_json(const Simulation& sim, double seconds, double point_steps);
 
+/// Version, revision, compiler and build.
+Json program_json();
+
 }  // namespace krater

@@ -137,6 +137,7 @@ class BoundarySet {
     double *ghost, *plane, *inner;  ///< plane: nullptr where it is a knot ...
     const double* next;             ///< ... and there the node beyond the inner one, if any
     FieldId field;
+    bool counted;                     ///< in the sums of this rank
     bool moves_points;                ///< the field is not that of a rigid body
     std::array<std::size_t, 3> held;  ///< of a plane that pushes: its nodes in held_
     std::size_t held_count;
@@ -167,19 +168,23 @@ class BoundarySet {
     std::array<double, kNodeDoubles> before;
     std::array<double, 3> last;  ///< v+ before the plane under way
     unsigned folded;             ///< bit per component that a plane that folds holds at rest
+    bool counted;                ///< in the sums of this rank
   };
   void place(Plane& plane) const;
   void add_columns(BlockGrid& grid, Plane& plane) const;
   void add_column(BlockGrid& grid, Plane& plane, NodeBlock& block,
                   const std::array<int, 3>& index) const;
   static void link_columns(Plane& plane);
-  void list_held_nodes();
+  void list_held_nodes(const BlockGrid& grid);
   void keep_folded(const Column& column);
   static void note_fills(Plane& plane);
   void fold_column(Plane& plane, Column& column) const;
   bool touches(const Plane& plane, const Column& column) const;
   bool hold(const Plane& plane, const Column& column) const;
-  void note_push(const Plane& plane, const Column& column, BoundaryWork& sum);
+  /// What planes did, in sums that are those of all ranks in the end.
+  struct Sums;
+  static BoundaryWork together(Sums& sums);
+  void note_push(const Plane& plane, const Column& column, Sums& sums);
 
   GridGeometry geometry_;
   BoundaryConditions conditions_;

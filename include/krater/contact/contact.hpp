@@ -125,6 +125,7 @@ class ContactSet {
   struct Group {
     std::size_t first;                  ///< of the node blocks with one key ...
     int fields;                         ///< ... one per field
+    bool counted = true;                ///< in the sums of this rank
     std::vector<std::int32_t> sources;  ///< per field and padded node: node in memory, -1: none;
                                         ///< linked when two bodies first share a node
     std::vector<double> inverse;        ///< 1/covered volume, per padded node
@@ -197,6 +198,7 @@ class ContactSet {
   void exchange_node(BlockGrid& grid, Group& group, std::size_t first, std::size_t end,
                      const Touch& touch) const;
   ContactWork exchange_group(BlockGrid& grid, Group& group, const RigidBodies& rigid) const;
+  ContactWork total() const;
   void hand_over(RigidBodies& rigid, ContactWork& sum);
   void foretell(const BlockGrid& grid, RigidBodies& rigid);
   Strike strike_of(const BlockGrid& grid, const Group& group, const Contact& contact,
@@ -228,7 +230,7 @@ class ContactSet {
   std::vector<Group> groups_;
   std::vector<RigidTwist> twists_;  ///< by body: velocities that nodes meet in this step
   mutable std::vector<Scratch> scratch_;
-  std::vector<double> heats_;
+  std::vector<ReproducibleSum> heats_;
   std::vector<ContactWork> results_;
 };
 

@@ -14,6 +14,8 @@
 #include <array>
 #include <vector>
 
+#include "krater/core/reproducible_sum.hpp"
+
 namespace krater {
 
 class ImpulseHeat {
@@ -27,15 +29,15 @@ class ImpulseHeat {
     pushed_.push_back({node, mass, change});
   }
   /// The nodes since the last call share one loss; W [J] may be added to later, by the index
-  /// returned.
-  std::size_t close(double outside = 0) {
-    losses_.push_back({pushed_.size(), outside});
+  /// returned. `counted`: its D belongs to the sum of book() on this rank (grid/blocks.hpp).
+  std::size_t close(double outside = 0, bool counted = true) {
+    losses_.push_back({pushed_.size(), outside, counted});
     return losses_.size() - 1;
   }
   std::size_t count() const { return losses_.size(); }
   void add_work(std::size_t loss, double work) { losses_[loss].outside += work; }
   /// Adds eta to the nodes, which hold k; returns the sum of D [J].
-  double book() const;
+  ReproducibleSum book() const;
 
  private:
   struct Pushed {
@@ -46,6 +48,7 @@ class ImpulseHeat {
   struct Loss {
     std::size_t end;  ///< of its nodes in pushed_
     double outside;   ///< W
+    bool counted;
   };
   std::vector<Pushed> pushed_;
   std::vector<Loss> losses_;

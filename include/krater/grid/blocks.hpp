@@ -16,6 +16,7 @@
 /// grid/geometry.hpp.
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -102,10 +103,17 @@ struct alignas(128) Patch {
   bool settled = false;         ///< the last gather found everything at rest and changed nothing
   bool steady = false;          ///< no point came or left in the last step
   bool awaited = false;         ///< points were to come soon when patches were made last
+  int rank = -1;                ///< that has its points (distribute/distribution.hpp)
+  int held = 0;                 ///< how many these are, where another rank has them
+  bool here = true;             ///< this rank has them ...
+  bool near = true;             ///< ... or its tile at least
+  double cost = 0;              ///< of its sweeps, smoothed over steps, where there are ranks [s]
   PatchLinks links;
   Outbox outbox;
   PatchResult result;
 
+  /// Points that are in it, on whatever rank.
+  int count() const { return here ? points.count() : held; }
   /// The points, or some of them, were changed from outside the sweeps.
   void touch() {
     settled = false;
@@ -138,6 +146,7 @@ struct NodeBlock {
   bool at_tie = false;            ///< holds such nodes, some that they follow from, or next to them
   bool at_boundary = false;
   bool at_wall = false;  ///< holds columns of a unilateral wall
+  bool counted = true;   ///< in the sums of this rank: it has the first patch that reaches it
   bool still = false;    ///< every v+ and dv of the block is exactly zero
   bool inert =
       false;  ///< and so were its momenta and forces: nothing to compute while its tiles stay
@@ -180,6 +189,13 @@ class BlockGrid {
   void keep_shadows() { shadows_ = true; }
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
   void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
+  /// Which rank has the patches of a block; this one is `own` and holds the nodes and tiles of what
+  /// is up to `width` blocks around its patches. Before rebuild().
+  void set_owners(std::function<int(const BlockKey&)> owner, int own, int width) {
+    owner_ = std::move(owner);
+    own_ = own;
+    width_ = width;
+  }
   int find_patch(const BlockKey& key, int body) const;            ///< -1: none
   int find_node_block(const BlockKey& key, FieldId field) const;  ///< -1: none
   /// The block of a node, or of a cell, and which it is there.
@@ -191,6 +207,7 @@ class BlockGrid {
   void rebuild(bool drop_empty);
 
  private:
+  void find_near();
   void make_node_blocks();
   template <class Add>
   void add_shadows(const Add& add);
@@ -202,6 +219,8 @@ class BlockGrid {
   std::vector<TileRef> tile_refs_;
   std::vector<FieldId> field_of_body_;
   bool shadows_ = false;
+  std::function<int(const BlockKey&)> owner_;  ///< empty: one rank has all
+  int own_ = 0, width_ = 0;
   KeyIndex patch_index_, node_index_;
   AlignedBuffer node_memory_;
 };
@@ -214,6 +233,8 @@ constexpr int slot_offset(int slot, int axis, int dimension) {
 }
 constexpr int corner_offset(int corner, int axis) { return (corner >> axis) & 1; }
 BlockKey shifted(const BlockKey& key, int slot, int dimension);
+/// All keys up to `width` blocks from some of these along every axis, sorted.
+std::vector<BlockKey> keys_within(std::vector<BlockKey> keys, int width, int dimension);
 /// One of the blocks that hold what the tied nodes of block `key` follow from: 2^dim where its
 /// indices are odd, fewer where some are even. None: of that corner there is none.
 std::optional<BlockKey> master_block(const BlockKey& key, int corner, int dimension);

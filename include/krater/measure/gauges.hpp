@@ -32,6 +32,7 @@ class Gauges {
 
   /// After a step.
   void look(const Simulation& sim);
+  bool due(double time) const;  ///< a look then reads points
   /// What belongs into summary.json: `gauges`.
   void summarize(Json& summary) const;
   void write(ResultsFolder& results) const;

@@ -21,6 +21,7 @@ class Outcomes {
 
   /// After a step; `row`: the row of history written in it, or empty. True: the answer is there.
   bool look(const Simulation& sim, const std::vector<Quantity>& row);
+  bool due(double time) const;  ///< a look then reads points
   bool answered() const { return answered_; }
   const std::string& answer() const { return scene_.stop.text; }
 

@@ -56,6 +56,16 @@ class Simulation {
   bool done() const { return time() >= scene_.time.end; }
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
+  /// Where several ranks compute the scene (distribute/distribution.hpp): every rank has all of it
+  /// until this, then its share. Throws InputError. All that follows is for the first to call, but
+  /// follow().
+  void distribute();
+  /// The other ranks do what the first one does, until it lets them go ...
+  void follow();
+  void dismiss();  ///< ... as it does so
+  /// All points come to the first rank, to be read there until the next step.
+  void assemble();
+  const Distribution* distribution() const { return ranks_.get(); }  ///< null: one rank
   bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
   double stable_step() const { return clock_.stable_step(limit_.rate); }  ///< of the next step [s]
   const char* limiter() const;         ///< what limits the time step
@@ -78,7 +88,7 @@ class Simulation {
   Triple impulse(const std::vector<int>& bodies, Partner by) const;
   /// Throws NumericalError when more energy is unphysical than the scene allows. `last`: the run
   /// ends.
-  void judge_energy(bool last) const;
+  void judge_energy(bool last);
   /// How the elements are, for a row of the history: what is said of it too.
   void look_at_elements();
   /// Which points have lost each other (simulation/torn_points.hpp), for a row of the history;
@@ -129,6 +139,12 @@ class Simulation {
       const Checkpoint& checkpoint);  ///< throws InputError when it belongs to another scene
 
  private:
+  void plan_ranks();
+  void advance(double until);
+  void assemble_together();
+  void release();
+  /// After a fault of points, which all ranks know of: text of the first, which has them all.
+  [[noreturn]] void fail_fault(const StepFault& fault);
   int mesh_sets() const { return mesh_ ? mesh_->set_count() : 0; }
   int first_points() const { return mesh_sets() + (sph_ ? sph_->set_count() : 0); }
   bool is_sph(int body) const {
@@ -198,6 +214,9 @@ class Simulation {
   Audit audit_;
   Impulses impulses_;
   std::unique_ptr<NodeLoads> loads_;
+  std::unique_ptr<Distribution> ranks_;  ///< null: one rank has all
+  bool dealt_ = false;                   ///< every rank has its share
+  bool assembled_ = true;                ///< points of other ranks are on the first, too
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;

@@ -17,7 +17,7 @@ using Places = std::set<std::pair<BlockKey, int>>;  ///< block, body
 
 /// Nothing in it, nothing on the way from it or to it.
 bool is_idle(const Patch& patch) {
-  return patch.points.count() == 0 && patch.outbox.used == 0 && patch.outbox.keys.empty() &&
+  return patch.count() == 0 && patch.outbox.used == 0 && patch.outbox.keys.empty() &&
          !patch.awaited;
 }
 
@@ -44,7 +44,7 @@ std::vector<BlockKey> blocks_ahead(const BlockGrid& grid, const Patch& patch, co
 /// A change of the topology costs as much as a step of a few blocks; where fragments fly there
 /// would be one in every step. So patches that the next steps will need are made with the first.
 void look_ahead(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, double ahead,
-                Places& missing) {
+                const Distribution* ranks, Places& missing) {
   std::vector<std::vector<BlockKey>> found(grid.patches().size());
   for_each(found.size(), [&](std::size_t p) {
     const Patch& patch = grid.patches()[p];
@@ -52,6 +52,7 @@ void look_ahead(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, doub
       found[p] =
           blocks_ahead(grid, patch, bodies[static_cast<std::size_t>(patch.body)].columns, ahead);
   });
+  if (ranks != nullptr) ranks->share_keys(grid, found);
   for (std::size_t p = 0; p < found.size(); ++p)
     for (const BlockKey& key : found[p]) {
       const int body = grid.patches()[p].body;
@@ -77,9 +78,10 @@ void await(BlockGrid& grid, const std::vector<Arrival>& arrivals) {
 }
 
 void make_patches(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                  const std::vector<Arrival>& arrivals, double ahead, Places missing) {
+                  const std::vector<Arrival>& arrivals, double ahead, const Distribution* ranks,
+                  Places missing) {
   await(grid, arrivals);
-  if (ahead > 0) look_ahead(grid, bodies, ahead, missing);
+  if (ahead > 0) look_ahead(grid, bodies, ahead, ranks, missing);
   grid.drop_patches_if(is_idle);
   for (const auto& [key, body] : missing)
     grid.add_patch(key, body, bodies[static_cast<unsigned>(body)].columns.stride).awaited = true;
@@ -148,6 +150,7 @@ void take_from_neighbours(BlockGrid& grid, const std::vector<BodyKernelData>& bo
   const int slots = neighbour_count(grid.geometry().dimension);
   for_each(grid.patches().size(), [&](std::size_t p) {
     Patch& patch = grid.patches()[p];
+    if (!patch.here) return;
     const BodyKernelData& body = bodies[static_cast<unsigned>(patch.body)];
     const int width = body.columns.stride / kLanes;
     for (int s = 0; s < slots; ++s) {
@@ -168,7 +171,7 @@ void take_from_neighbours(BlockGrid& grid, const std::vector<BodyKernelData>& bo
 
 Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
                   const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes,
-                  double ahead) {
+                  double ahead, Distribution* ranks) {
   const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
   Delivered out;
   std::vector<Arrival> arrivals;
@@ -181,7 +184,7 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
         missing.insert({shifted(patch.key, s, dimension), patch.body});
   for (const Arrival& a : arrivals)
     if (grid.find_patch(a.key, a.body) < 0) missing.insert({a.key, a.body});
-  if (!missing.empty()) make_patches(grid, bodies, arrivals, ahead, missing);
+  if (!missing.empty()) make_patches(grid, bodies, arrivals, ahead, ranks, missing);
   const auto& all = grid.patches();
   if (arrivals.empty() && std::all_of(all.begin(), all.end(), [](const Patch& p) {
         return p.steady && p.outbox.used == 0;
@@ -189,9 +192,11 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
     out.changed = drop_idle(grid) || !missing.empty();
     return out;
   }
+  if (ranks != nullptr) ranks->send_points(grid);
   take_from_neighbours(grid, bodies);
   take_arrivals(grid, bodies, arrivals);
   for (Patch& patch : grid.patches()) patch.outbox.clear();
+  if (ranks != nullptr) ranks->share_counts(grid);
   out.changed = drop_idle(grid) || !missing.empty();
   return out;
 }

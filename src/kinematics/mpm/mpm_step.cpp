@@ -2,9 +2,12 @@
 #include "krater/kinematics/mpm/mpm_step.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
+#include "krater/core/reproducible_sum.hpp"
 
 namespace krater {
 
@@ -13,6 +16,16 @@ namespace {
 // A step is halved when the change of velocity alone would move material by more than this share of
 // a cell.
 constexpr double kMaxShare = 0.3;
+constexpr double kNewest = 0.1;  // share of the last step in what a patch is taken to cost
+
+/// Does its work, and smooths what that takes over steps.
+template <class Work>
+void note_cost(Patch& patch, const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  patch.cost += (patch.cost > 0 ? kNewest : 1) * (seconds.count() - patch.cost);
+}
 
 double alpha_of(const MethodOptions& m, double tflip) {
   switch (m.transfer) {
@@ -40,6 +53,7 @@ MpmStep::MpmStep(const MethodOptions& method, const Parts& parts)
       boundary_{parts.boundary},
       contact_{parts.contact},
       rigid_{parts.rigid},
+      ranks_{parts.ranks},
       ties_{parts.grid, parts.boundary,
             parts.contact.active()
                 ? WholeVolume{[&contact = parts.contact](const GridGeometry& g,
@@ -201,6 +215,7 @@ void MpmStep::relink() {
   for (std::size_t n = 0; n < grid_.node_blocks().size(); ++n)
     if (waits(grid_.node_blocks()[n])) waiting_blocks_.push_back(n);
   relink_fluids();
+  if (ranks_ != nullptr) ranks_->relink(grid_);
   provide_memory();
 }
 
@@ -230,15 +245,17 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
   for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
     Patch& patch = grid_.patches()[p];
     patch.result.fault = {};
-    if (patch.tile.state == Tile::State::stale) stale_.push_back(p);
+    if (patch.here && patch.tile.state == Tile::State::stale) stale_.push_back(p);
   }
   for_each(stale_.size(), [&](std::size_t i) {
     Patch& patch = grid_.patches()[stale_[i]];
     kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s[level_of(patch)],
                     scratch());
   });
-  lap(Phase::scatter);
+  if (ranks_ != nullptr) share_faults();
   throw_faults();
+  if (ranks_ != nullptr) ranks_->exchange_tiles(grid_);
+  lap(Phase::scatter);
 }
 
 std::vector<MomentumSettings> MpmStep::momentum_settings(double dt_force) const {
@@ -291,12 +308,13 @@ double MpmStep::momentum(double& dt, double force_share) {
   const double share = safe_share(force_share * dt);
   if (share < 1) shorten(dt, share);
   lap(Phase::boundary);
-  double kinetic = rigid_.kinetic();
+  ReproducibleSum kinetic;
   for (const NodeBlock& block : grid_.node_blocks()) {
-    if (rigid_.any() && rigid_.find(body_of(block.field))) continue;
+    if (!block.counted || (rigid_.any() && rigid_.find(body_of(block.field)))) continue;
     kinetic += block.sums.kinetic;
   }
-  return kinetic;
+  ranks::sum({&kinetic, 1});
+  return rigid_.kinetic() + kinetic.value();
 }
 
 /// Share of a step that the change of velocity alone may move material through its cells; halved
@@ -304,7 +322,8 @@ double MpmStep::momentum(double& dt, double force_share) {
 double MpmStep::safe_share(double dt_force) const {
   double most = 0;  // in cells of the coarsest level
   for (const NodeBlock& block : grid_.node_blocks())
-    most = std::max(most, std::ldexp(block.sums.max_change, block.key.level));
+    if (block.counted) most = std::max(most, std::ldexp(block.sums.max_change, block.key.level));
+  most = ranks::max(most);
   double share = 1;
   while (share * most * share * dt_force > kMaxShare * grid_.geometry().h) share *= 0.5;
   return share;
@@ -339,25 +358,20 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
   if (moves && rigid_.any()) finish_rigid(dt);
   if (!fluid_patches_.empty() && part != GatherPart::keep_only) correct_dilatation(all.front());
   for_each(grid_.patches().size(), [&](std::size_t p) {
-    const SweepScratch w = scratch();
     Patch& patch = grid_.patches()[p];
-    const SweepSettings& s = all[level_of(patch)];
+    if (!patch.here) return;
     if (patch.tile.state == Tile::State::ahead) patch.tile.state = Tile::State::stale;
     if (rigid_.any() && rigid_.find(patch.body)) {
-      if (moves) move_rigid(p, w);
+      if (moves) move_rigid(p, scratch());
       return;
     }
-    gather(p, part, s, w);
-    if (!moves || patch.tile.state == Tile::State::asleep ||
-        patch.result.fault.kind != FaultKind::none)
-      return;
-    const int before = patch.points.count();
-    removed_[p] = collect_leavers(patch, grid_.levels(), boundary_,
-                                  bodies_[static_cast<unsigned>(patch.body)].columns, w.leavers);
-    const bool steady = patch.steady;
-    patch.steady = patch.points.count() == before;
-    if (ahead && steady && patch.steady) scatter_ahead(patch, s, w);
+    const AfterGather then{moves, ahead};
+    if (ranks_ != nullptr)
+      note_cost(patch, [&] { gather_and_collect(p, part, all[level_of(patch)], then); });
+    else
+      gather_and_collect(p, part, all[level_of(patch)], then);
   });
+  if (ranks_ != nullptr) ranks_->share_results(grid_, removed_);
   lap(Phase::gather);
   double scattering = 0;
   for (ThreadMemory& m : memory_) {

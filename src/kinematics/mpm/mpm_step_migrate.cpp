@@ -20,12 +20,14 @@ void MpmStep::migrate() {
   }
   if (impulses_.any()) note_put_back();
   const std::vector<int> losing = rigid_losses();
-  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_, kStepsAhead * last_step_);
+  const Delivered delivered =
+      deliver(grid_, boundary_, bodies_, sizes_, kStepsAhead * last_step_, ranks_);
   book_delivered(delivered);
   bool changed = delivered.changed;
   for (const int b : losing)  // what is left moves on as it did
     rigid_.find(b)->lose(grid_, bodies_[static_cast<std::size_t>(b)].columns);
   if (method_.reference == Reference::adaptive) changed = renew_references() || changed;
+  if (ranks_ != nullptr) changed = ranks_->rebalance(grid_) || changed;
   if (changed)
     relink();
   else

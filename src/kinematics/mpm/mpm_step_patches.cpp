@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
 
 namespace krater {
@@ -78,6 +79,31 @@ void MpmStep::gather(std::size_t p, GatherPart part, const SweepSettings& s,
   kernels_.gather(patch, grid_, body, s, w, part);
   if (part != GatherPart::velocity_move) name_limit(patch);
   patch.settled = still && hash_of(patch.points.data(), size) == before;
+}
+
+/// A patch moves; what leaves it is in its outbox, and where nothing does, it is scattered again.
+void MpmStep::gather_and_collect(std::size_t p, GatherPart part, const SweepSettings& s,
+                                 const AfterGather& then) {
+  const SweepScratch w = scratch();
+  Patch& patch = grid_.patches()[p];
+  gather(p, part, s, w);
+  if (!then.moves || patch.tile.state == Tile::State::asleep ||
+      patch.result.fault.kind != FaultKind::none)
+    return;
+  const int before = patch.points.count();
+  removed_[p] = collect_leavers(patch, grid_.levels(), boundary_,
+                                bodies_[static_cast<unsigned>(patch.body)].columns, w.leavers);
+  const bool steady = patch.steady;
+  patch.steady = patch.points.count() == before;
+  if (then.scatters && steady && patch.steady) scatter_ahead(patch, s, w);
+}
+
+/// Where one patch cannot be scattered, all ranks must hear of it.
+void MpmStep::share_faults() {
+  const bool any = std::any_of(grid_.patches().begin(), grid_.patches().end(), [](const Patch& p) {
+    return p.here && p.result.fault.kind != FaultKind::none;
+  });
+  if (ranks::max(any ? 1 : 0) > 0) ranks_->share_results(grid_, removed_);
 }
 
 // Points are read from memory once a step: the next scatter follows the gather of a patch while its

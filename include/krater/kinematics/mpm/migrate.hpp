@@ -7,6 +7,7 @@
 /// do not depend on threads. Points that change the level of their cells go by lists of their own,
 /// in the order of their patches.
 #include "krater/contact/boundary.hpp"
+#include "krater/distribute/distribution.hpp"
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
 #include "krater/kinematics/mpm/split.hpp"
@@ -34,7 +35,7 @@ struct Delivered {
 /// after `ahead` [s]: patches without points change no bit of the rest.
 Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
                   const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes,
-                  double ahead = 0);
+                  double ahead = 0, Distribution* ranks = nullptr);
 
 /// New points of `body`, records of stride/8 doubles, to the blocks of their positions; what lies
 /// beyond an open side is removed at once. Relink afterwards.

@@ -17,6 +17,7 @@
 #include "krater/contact/boundary.hpp"
 #include "krater/contact/contact.hpp"
 #include "krater/core/stopwatch.hpp"
+#include "krater/distribute/distribution.hpp"
 #include "krater/kinematics/audit.hpp"
 #include "krater/kinematics/energy_watch.hpp"
 #include "krater/kinematics/kinematics.hpp"
@@ -63,6 +64,7 @@ class MpmStep final : public Kinematics {
     /// scene.
     const Kernels* carriers = nullptr;
     KernelShape shape = KernelShape::quadratic_bspline;
+    Distribution* ranks = nullptr;  ///< nullptr: all blocks are here
   };
   MpmStep(const MethodOptions& method, const Parts& parts);
 
@@ -106,7 +108,7 @@ class MpmStep final : public Kinematics {
   /// Where blocks away from the edges of their level are crowded.
   void merge();
   /// After a fault: points under way between blocks go where they belong.
-  void deliver_leavers() { deliver(grid_, boundary_, bodies_, sizes_); }
+  void deliver_leavers() { deliver(grid_, boundary_, bodies_, sizes_, 0, ranks_); }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.
   void set_reference_speed(double v) { node_settings_.flush_velocity = 1e-16 * v; }
 
@@ -145,6 +147,12 @@ class MpmStep final : public Kinematics {
   bool may_scatter_ahead(GatherPart part) const;
   void scatter_ahead(Patch& patch, const SweepSettings& s, const SweepScratch& w);
   void gather(std::size_t patch, GatherPart part, const SweepSettings& s, const SweepScratch& w);
+  /// What follows the gather of a patch.
+  struct AfterGather {
+    bool moves, scatters;
+  };
+  void gather_and_collect(std::size_t patch, GatherPart part, const SweepSettings& s,
+                          const AfterGather& then);
   void filter_velocity(std::array<double, 3>& impulse);
   void note_forces();
   void write_filtered_work();
@@ -167,6 +175,7 @@ class MpmStep final : public Kinematics {
   }
   void provide_memory();
   void throw_faults() const;
+  void share_faults();
   void migrate();
   void book_delivered(const Delivered& delivered);
   bool renew_references();
@@ -191,6 +200,7 @@ class MpmStep final : public Kinematics {
   BoundarySet& boundary_;
   ContactSet& contact_;
   RigidBodies& rigid_;
+  Distribution* ranks_;
   Ties ties_;
   const Kernels& kernels_;
   const Kernels& plain_;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file distribute/distribution.hpp
+/// Blocks of one scene on several ranks, with the bits of one.
+///
+/// Every rank knows of all patches: key, body, owner, how many points, and what their last sweep
+/// found (PatchResult); so what is summed or decided over patches is so on every rank as on one.
+/// The points of a patch are on its owner alone. A rank also holds, without points, the patches up
+/// to `width` blocks around its own: their tiles come from their owners once a step, and the nodes
+/// around its own points are summed, moved, brought into contact and held by walls here, from all
+/// tiles that reach them in the order of their blocks, as one rank does it. Nothing is sent back.
+/// (The plan of the issue had the owner of a node sum it and send v+ and dv: a second message in
+/// every step, and a third for what contact and walls read around a node. The nodes done twice are
+/// a surface.)
+///
+/// How far that reaches: a point reads the nodes of its block and the one above it, [0, 1]; these
+/// are whole with the tiles of [-1, 1]. Each of the following reads nodes up to a block further on
+/// to make those right: planes that fold or push, contact, and planes that push along two axes.
+///
+/// A sum over nodes counts a block where the first patch that reaches it is (NodeBlock::counted),
+/// and does not depend on the order of its terms (core/reproducible_sum.hpp).
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "krater/distribute/partition.hpp"
+#include "krater/grid/blocks.hpp"
+#include "krater/kinematics/audit.hpp"
+#include "krater/points/columns.hpp"
+
+namespace krater {
+
+class Distribution {
+ public:
+  /// `columns`: by body.
+  Distribution(int dimension, int width, std::vector<PointColumns> columns)
+      : width_{width}, columns_{std::move(columns)}, partition_{dimension} {}
+
+  /// Of a grid that all ranks hold whole: to each its share. Relink afterwards.
+  void deal(BlockGrid& grid);
+  /// Shares anew where the most that a rank has to do is more than 1.15 of the mean; true: they
+  /// are. Relink afterwards.
+  bool rebalance(BlockGrid& grid);
+  /// Who needs whose tiles; after BlockGrid::rebuild().
+  void relink(const BlockGrid& grid);
+  /// Tiles of patches near those of other ranks; when all are scattered.
+  void exchange_tiles(BlockGrid& grid);
+  /// What the sweep found of each patch, and what it took out of the computation, to all.
+  void share_results(BlockGrid& grid, std::vector<Removed>& removed) const;
+  /// Of patches, by number: what the owner found, to all.
+  void share_keys(const BlockGrid& grid, std::vector<std::vector<BlockKey>>& found) const;
+  /// Points that leave a patch for one of another rank, into the outbox of that patch there.
+  void send_points(BlockGrid& grid) const;
+  /// How many points patches have now.
+  void share_counts(BlockGrid& grid) const;
+  /// All points to the first rank, for it to write and measure; and away again.
+  void assemble(BlockGrid& grid) const;
+  void release(BlockGrid& grid) const;
+
+  /// The most that a rank has to do over the mean, by measured time; 1 is balance.
+  double imbalance(const BlockGrid& grid) const;
+  int times_cut() const { return cuts_; }
+
+ private:
+  struct Neighbour {
+    int rank;
+    std::vector<int> send, receive;  ///< patches, in their order
+  };
+  void take_ranks(BlockGrid& grid) const;
+  Neighbour& neighbour(int rank);
+
+  int width_;
+  std::vector<PointColumns> columns_;
+  Partition partition_;
+  std::vector<Neighbour> neighbours_;  ///< by rank
+  /// Patches of this rank whose tile a rank has had since it needs it: (rank, body, key).
+  std::set<std::pair<std::pair<int, int>, BlockKey>> known_;
+  int steps_since_cut_ = 0, cuts_ = 0;
+};
+
+}  // namespace krater

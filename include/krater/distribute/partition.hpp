@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \file distribute/partition.hpp
+/// Which rank has a block. Space is cut by recursive coordinate bisection of the weighted centres
+/// of blocks (Zoltan's RCB, Boman et al., Scientific Programming 20, 2012): the cuts are known to
+/// all ranks, so that a block which comes later has an owner without a question asked. A cut moves
+/// little when weights do.
+#include <memory>
+#include <vector>
+
+#include "krater/grid/key_index.hpp"
+
+namespace krater {
+
+class Partition {
+ public:
+  explicit Partition(int dimension);
+  ~Partition();
+  Partition(const Partition&) = delete;
+  Partition& operator=(const Partition&) = delete;
+
+  struct Weighted {
+    BlockKey key;
+    double weight;
+  };
+  /// Cut anew; `own`: blocks that this rank speaks for, each of one rank. Collective.
+  void cut(const std::vector<Weighted>& own);
+  /// Of any block, by the last cut.
+  int owner(const BlockKey& key) const;
+
+ private:
+  struct Cuts;
+  std::unique_ptr<Cuts> cuts_;
+};
+
+}  // namespace krater

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One scene on several ranks (distribute/distribution.hpp): the first leads, the others do as it
+// says.
+#include <array>
+
+#include <fmt/format.h>
+
+#include "krater/core/errors.hpp"
+#include "krater/core/ranks.hpp"
+#include "krater/simulation/simulation.hpp"
+
+namespace krater {
+
+namespace {
+
+/// What the first rank tells the others to do.
+enum class Order { leave, step, assemble };
+
+struct Told {
+  Order order;
+  double until;
+};
+
+Told tell(Order order, double until = 0) {
+  std::array<double, 2> words{static_cast<double>(order), until};
+  ranks::broadcast(words);
+  return {static_cast<Order>(static_cast<int>(words[0])), words[1]};
+}
+
+/// All ranks are at it: an error that the others cannot know of would let them wait for ever.
+template <class Work>
+void together(const Work& work) {
+  try {
+    work();
+  } catch (const NumericalError&) {
+    throw;
+  } catch (const std::exception& e) {
+    ranks::give_up(fmt::format("krater: {}", e.what()), 2);
+  }
+}
+
+/// What of a scene is not computed on several ranks yet; empty: all of it is.
+std::string undistributed(const Scene& scene, const std::vector<std::unique_ptr<Body>>& bodies) {
+  if (!scene.grid.refine.empty()) return scene.grid.refine.front().where + ": finer cells";
+  const MethodOptions& method = scene.method;
+  for (const auto& body : bodies) {
+    const std::string name = "body '" + body->name() + "': ";
+    if (body->options().rigid()) return name + "a rigid body";
+    if (!body->options().material_points()) return name + "elements and particles";
+    if (body->pressure_on_grid(scene)) return name + "pressure integrated on the grid";
+  }
+  if (scene.loads.any()) return "loads: loads on faces, driven faces and damping";
+  if (scene.body_force) return "body_force: body forces";
+  if (method.transfer == Transfer::xpic) return "method.transfer: xpic";
+  if (method.reference != Reference::current) return "method.reference: a fixed reference";
+  if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
+    return "contact.normal: logistic_regression";
+  return "";
+}
+
+/// How far around its blocks a rank needs the tiles of others (distribute/distribution.hpp).
+int reach(const Scene& scene) {
+  int closed = 0, pushing = 0;
+  for (int a = 0; a < dimension(scene.frame); ++a) {
+    const auto& sides = scene.grid.boundary[static_cast<std::size_t>(a)];
+    closed += sides[0].closed() || sides[1].closed() ? 1 : 0;
+    pushing += sides[0].pushes() || sides[1].pushes() ? 1 : 0;
+  }
+  return 1 + (closed > 0 ? 1 : 0) + (pushing > 1 ? 1 : 0) + (scene.contact.active ? 1 : 0);
+}
+
+}  // namespace
+
+void Simulation::plan_ranks() {
+  if (ranks::alone()) return;
+  if (const std::string what = undistributed(scene_, bodies_); !what.empty())
+    throw InputError(what +
+                     " cannot be computed on several ranks yet; start krater without mpirun: it "
+                     "uses all cores of one machine");
+  if (impulses_.any())
+    throw InputError(
+        "measures of what bodies or sides give each other (force, impulse) cannot be taken on "
+        "several ranks yet; start krater without mpirun");
+  ranks_ =
+      std::make_unique<Distribution>(geometry_.dimension, reach(scene_), columns_of(kernel_data_));
+}
+
+void Simulation::distribute() {
+  if (!ranks_) return;
+  together([this] {
+    ranks_->deal(grid_);
+    step_->relink();
+  });
+  dealt_ = true;
+  assembled_ = false;
+}
+
+void Simulation::follow() {
+  for (;;) {
+    const Told told = tell(Order::leave);
+    if (told.order == Order::leave) return;
+    try {
+      together([&] {
+        if (told.order == Order::assemble)
+          assemble_together();
+        else
+          advance(told.until);
+      });
+    } catch (const NumericalError&) {  // the first rank has it too, and says it
+    }
+  }
+}
+
+void Simulation::dismiss() {
+  if (dealt_) tell(Order::leave);
+}
+
+void Simulation::step(double until) {
+  if (!ranks_) {
+    advance(until);
+    return;
+  }
+  tell(Order::step, until);
+  together([&] { advance(until); });
+}
+
+void Simulation::assemble() {
+  if (!ranks_ || assembled_) return;
+  tell(Order::assemble);
+  together([this] { assemble_together(); });
+}
+
+void Simulation::assemble_together() {
+  if (!ranks_ || assembled_) return;
+  ranks_->assemble(grid_);
+  assembled_ = true;
+}
+
+void Simulation::release() {
+  if (!ranks_ || !assembled_) return;
+  ranks_->release(grid_);
+  assembled_ = false;
+}
+
+}  // namespace krater

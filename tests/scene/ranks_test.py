@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several processes compute one scene with the bits of one: frames, history, summary and checkpoint, with
+blocks dealt out by their work or at random; a restart on another number of them; errors that all hear of.
+Skipped where the packages of tools/setup --mpi are missing."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from scene_support import KRATER, ROOT, Folder, check, differences, environment, finish, run, settings, summary
+
+PROGRAM = pathlib.Path(KRATER).with_name("krater_on_ranks")
+if not PROGRAM.exists():
+    PROGRAM = pathlib.Path(KRATER)
+INPUTS = ROOT / "inputs"
+CASES = {
+    # a wall with friction, symmetry at the axis, blocks that sleep
+    "taylor": ("taylor_copper.yaml", ["time.end=8 us", "output.frames=2 us", "grid.cell=0.3 mm"]),
+    # contact, damage, failed points that go, open sides
+    "plugging": ("ccf_plugging.yaml", ["grid.cell=1 mm", "time.end=40 us", "output.frames=20 us"]),
+    # planes of symmetry along two axes, contact in space
+    "bars": ("ccf_two_bars.yaml", ["grid.cell=1.25 mm", "time.end=6 us", "output.frames=3 us"]),
+    # debris
+    "bumper": ("hiermaier_al.yaml", ["grid.cell=1 mm", "time.end=3 us", "output.frames=1 us"]),
+}
+
+
+def on_ranks(count, scene, output, *values, extra=(), env=None, threads=1):
+    words = ["mpirun", "--oversubscribe", "-np", str(count), str(PROGRAM), "run", str(INPUTS / scene), "-o", output,
+             "-j", str(threads), *settings(values), *map(str, extra)]
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+            "OMPI_MCA_btl_base_warn_component_unused": "0"}
+    return subprocess.run(words, capture_output=True, text=True, timeout=300, check=False,
+                          env=environment({**root, **(env or {})}))
+
+
+def last_line(done):
+    return (done.stderr.strip().splitlines() or [""])[-1]
+
+
+def same(one, other, what):
+    found = differences(one, other)
+    check(not found, f"{what}: frames, history, summary identical", ", ".join(found[:6]))
+
+
+def bits():
+    for name, (scene, values) in CASES.items():
+        done = run(f"{name}_alone", *values, scene=INPUTS / scene)
+        check(done.returncode == 0, f"{name} alone", last_line(done))
+        for count, deal in ((2, ""), (3, ""), (3, "scattered")):
+            output = f"{name}_{count}{deal}"
+            done = on_ranks(count, scene, output, *values, env={"KRATER_DEAL": deal})
+            check(done.returncode == 0, f"{name} on {count} ranks {deal}", done.stderr[-300:] if done.returncode else "")
+            if done.returncode == 0:
+                check(summary(output)["machine"]["ranks"] == count, f"{output} ran on {count} ranks")
+                same(f"{name}_alone", output, f"{name}, one and {count} ranks {deal}")
+
+
+def restarts():
+    scene, values = CASES["taylor"]
+    done = on_ranks(3, scene, "first", *values, "time.end=4 us")
+    check(done.returncode == 0, "a shorter run on three ranks", last_line(done))
+    for count in (1, 2):
+        output = f"restarted_{count}"
+        shutil.copytree("first", output)
+        done = on_ranks(count, scene, output, *values, extra=["--restart", f"{output}/checkpoint.h5"])
+        check(done.returncode == 0, f"continued on {count} ranks", last_line(done))
+        one, other = summary("taylor_alone"), summary(output)
+        check(one["measures"] == other["measures"] and one["audit"] == other["audit"] and one["steps"] >= 1,
+              f"continued on {count} ranks: the same answer")
+
+
+def errors():
+    scene, values = CASES["taylor"]
+    done = on_ranks(2, scene, "refused", *values, "method.transfer=xpic")
+    check(done.returncode == 2 and "several ranks" in done.stderr, "what cannot be distributed is refused by name",
+          done.stderr[:200])
+    done = on_ranks(2, scene, "unknown", "grid.cells=1 mm")
+    check(done.returncode == 2 and done.stderr.count("grid.cells") >= 1, "a wrong key ends all ranks", last_line(done))
+    pathlib.Path("blocked").write_text("a file")
+    done = on_ranks(3, scene, "blocked", *values)
+    check(done.returncode == 2, "a folder that cannot be written ends all ranks", last_line(done))
+    alone = run("broken_alone", *values, "time.min_step=2 ns", scene=INPUTS / scene)
+    done = on_ranks(3, scene, "broken", *values, "time.min_step=2 ns")
+    check(done.returncode == alone.returncode, f"a run that fails ends with exit code {alone.returncode} on all ranks",
+          str(done.returncode))
+
+
+if not PROGRAM.exists() or shutil.which("mpirun") is None:
+    print("skipped: no krater_on_ranks or no mpirun (tools/setup --mpi)")
+    sys.exit(77)
+with Folder():
+    bits()
+    restarts()
+    errors()
+finish()
