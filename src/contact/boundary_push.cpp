@@ -148,7 +148,8 @@ void BoundarySet::note_push(const Plane& plane, const Column& c, Sums& sums) {
   heat_.close(work, c.counted);
   if (c.counted) sums.all[1] += work;
   if (c.counted) sums.all[2] += 1;
-  if (notes_) add_impulse(given_, c.field, Partner::side(plane.axis, plane.side), impulse);
+  if (notes_ && c.counted)
+    add_impulse(given_, c.field, Partner::side(plane.axis, plane.side), impulse);
 }
 
 double BoundarySet::heat() {

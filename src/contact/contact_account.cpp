@@ -34,7 +34,10 @@ double ContactSet::heat() {
 }
 
 void ContactSet::give(Impulses& impulses) const {
-  for (const Group& group : groups_) impulses.add(group.given);
+  std::vector<ImpulseSum> all;
+  for (const Group& group : groups_)
+    if (group.counted) add_impulses(all, group.given);
+  impulses.add(all);
 }
 
 }  // namespace krater

@@ -364,7 +364,7 @@ Acceleration Simulation::body_force() const {
 }
 
 Triple Simulation::apply_body_force() {
-  Triple force{};
+  std::array<ReproducibleSum, 3> force;
   const Acceleration load = body_force();
   for (RigidBody& body : rigid_.all())
     load_rigid(body, grid_, kernel_data_[static_cast<std::size_t>(body.options().body)].columns,
@@ -377,7 +377,8 @@ Triple Simulation::apply_body_force() {
                                    geometry_.dimension, load, time());
     for (std::size_t a = 0; a < 3; ++a) force[a] += more[a];
   }
-  return force;
+  ranks::sum(force);
+  return {force[0].value(), force[1].value(), force[2].value()};
 }
 
 }  // namespace krater

@@ -50,7 +50,6 @@ std::string undistributed(const Scene& scene, const std::vector<std::unique_ptr<
     if (body->pressure_on_grid(scene)) return name + "pressure integrated on the grid";
   }
   if (scene.loads.any()) return "loads: loads on faces, driven faces and damping";
-  if (scene.body_force) return "body_force: body forces";
   if (method.transfer == Transfer::xpic) return "method.transfer: xpic";
   if (method.reference != Reference::current) return "method.reference: a fixed reference";
   if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
@@ -77,10 +76,6 @@ void Simulation::plan_ranks() {
     throw InputError(what +
                      " cannot be computed on several ranks yet; start krater without mpirun: it "
                      "uses all cores of one machine");
-  if (impulses_.any())
-    throw InputError(
-        "measures of what bodies or sides give each other (force, impulse) cannot be taken on "
-        "several ranks yet; start krater without mpirun");
   ranks_ =
       std::make_unique<Distribution>(geometry_.dimension, reach(scene_), columns_of(kernel_data_));
 }

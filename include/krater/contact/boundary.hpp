@@ -120,7 +120,7 @@ class BoundarySet {
   BoundaryWork folded(double dt, double alpha) const;
   void note_impulses() { notes_ = true; }  ///< from now on
   /// What planes that push gave each velocity field in the last constrain(), if it was noted.
-  const std::vector<ImpulsePair>& given() const { return given_; }
+  const std::vector<ImpulseSum>& given() const { return given_; }
   /// Some plane moves nodes by itself.
   bool drives() const;
   bool is_open(int axis, int side) const {
@@ -195,7 +195,7 @@ class BoundarySet {
   std::vector<Held> held_;  ///< each node once, in the order of memory
   ImpulseHeat heat_;
   bool notes_ = false;
-  std::vector<ImpulsePair> given_;
+  std::vector<ImpulseSum> given_;
 };
 
 }  // namespace krater

@@ -133,7 +133,7 @@ class ContactSet {
     std::vector<RigidShare> shares;     ///< of the step
     ImpulseHeat heat;                   ///< of the step
     std::vector<RigidPush> rigid_pushes;
-    std::vector<ImpulsePair> given;  ///< of the step, if it is noted
+    std::vector<ImpulseSum> given;  ///< of the step, if it is noted
     void begin_step() {
       contacts.clear();
       shares.clear();

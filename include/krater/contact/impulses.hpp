@@ -9,11 +9,13 @@
 /// momentum of a changes by its J, loads and planes of symmetry to round-off, and dJ/dt is the
 /// force. Of a side that pushes also what putting points back in the domain gave them. Only pairs
 /// that are watched are kept, and without any nothing is done.
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "krater/contact/options.hpp"
+#include "krater/core/reproducible_sum.hpp"
 #include "krater/grid/blocks.hpp"
 
 namespace krater {
@@ -25,15 +27,25 @@ struct ImpulsePair {
   Triple impulse{};  ///< [N s]
 };
 
-/// Adds to the pair's entry of a list; entries come in the order in which pairs first met.
-void add_impulse(std::vector<ImpulsePair>& list, FieldId on, Partner by, const Triple& impulse);
+/// The same of one step, in sums that do not depend on the order of their terms.
+struct ImpulseSum {
+  FieldId on{};
+  Partner by;
+  std::array<ReproducibleSum, 3> impulse{};  ///< [N s]
+};
+/// Adds to the pair's entry of a list.
+void add_impulse(std::vector<ImpulseSum>& list, FieldId on, Partner by, const Triple& impulse);
+void add_impulses(std::vector<ImpulseSum>& list, const std::vector<ImpulseSum>& more);
 
 class Impulses {
  public:
   void watch(FieldId on, Partner by);
   bool any() const { return !pairs_.empty(); }
-  /// Of the pair either way round; others are passed over.
-  void add(const std::vector<ImpulsePair>& given, double share = 1);
+  /// Of the pair either way round; others are passed over. Collective (core/ranks.hpp): each rank
+  /// gives what it counts.
+  void add(const std::vector<ImpulseSum>& given, double share = 1);
+  /// Of a pair, what all ranks know.
+  void book(FieldId on, Partner by, const Triple& impulse);
   /// On the field, of a pair that is watched [N s].
   Triple of(FieldId on, Partner by) const;
 

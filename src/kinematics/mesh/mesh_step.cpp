@@ -158,8 +158,8 @@ void MeshStep::note_sides(const Elements& body, const WallSums& sums) {
   const FieldId on = apart_ ? own_field(body.made_of.body) : FieldId{};
   for (const PushingSide& side : pushing_) {
     const int upper = side.inwards < 0 ? 1 : 0, axis = static_cast<int>(side.axis);
-    impulses_->add({{on, Partner::side(axis, upper),
-                     sums.by_side[static_cast<std::size_t>(2 * axis + upper)]}});
+    impulses_->book(on, Partner::side(axis, upper),
+                    sums.by_side[static_cast<std::size_t>(2 * axis + upper)]);
   }
 }
 

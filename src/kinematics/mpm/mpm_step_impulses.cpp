@@ -39,8 +39,8 @@ void MpmStep::note_impulses() {
 void MpmStep::note_put_back() {
   for (std::size_t p = 0; p < removed_.size(); ++p)
     for (int side = 0; side < 6 && removed_[p].reflections > 0; ++side)
-      impulses_.add({{grid_.patches()[p].field, Partner::side(side / 2, side % 2),
-                      removed_[p].side_impulse[static_cast<std::size_t>(side)]}});
+      impulses_.book(grid_.patches()[p].field, Partner::side(side / 2, side % 2),
+                     removed_[p].side_impulse[static_cast<std::size_t>(side)]);
 }
 
 }  // namespace krater

@@ -185,7 +185,7 @@ class MeshContact final : public PassingEncounter {
   std::vector<Meeting> meetings_;            ///< in order of nodes
   std::vector<std::int32_t> first_meeting_;  ///< per node of the grid, and the end
   std::vector<Touched> touched_;
-  std::vector<ImpulsePair> given_;
+  std::vector<ImpulseSum> given_;
   std::vector<RigidPart> rigid_parts_;
   double friction_ = 0, pairs_ = 0, rigid_work_ = 0;
 };
