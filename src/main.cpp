@@ -6,5 +6,5 @@ int main(int argc, char** argv) {
   krater::ranks::start(argc, argv);
   const int code = krater::command_line(argc, argv);
   krater::ranks::finish();
-  return code;
+  return krater::ranks::first() ? code : 0;  // a launcher ends all when one is not 0, unheard
 }

@@ -28,7 +28,7 @@ CASES = {
     # impulses of contact and of a wall, gauges, a body force, another update
     "measured": ("ccf_plugging.yaml", ["grid.cell=1.5 mm", "time.end=20 us", "output.frames=10 us",
                                        "method.update=musl", "body_force=[0, 1e6]",
-                                       "measures.given={kind: impulse, on: projectile, by: plate}"]),
+                                       "measures.given={kind: impulse, body: projectile, axis: z, by: plate}"]),
 }
 
 
