@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kUneven = 1.15;    ///< most over mean from which blocks are dealt out anew
 constexpr int kSettlingSteps = 50;  ///< and not before so many steps
+constexpr int kRestlessSteps = 5;
 
 template <class T>
 void put(std::vector<std::byte>& to, const T& what) {
@@ -98,7 +99,10 @@ double Distribution::imbalance(const BlockGrid& grid) const {
 }
 
 bool Distribution::rebalance(BlockGrid& grid) {
-  if (++steps_since_cut_ < kSettlingSteps || imbalance(grid) < kUneven) return false;
+  ++steps_since_cut_;
+  if (partition_.restless() ? steps_since_cut_ < kRestlessSteps
+                            : steps_since_cut_ < kSettlingSteps || imbalance(grid) < kUneven)
+    return false;
   steps_since_cut_ = 0;
   std::vector<Partition::Weighted> own;
   for (const Patch& patch : grid.patches())

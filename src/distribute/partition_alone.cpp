@@ -9,6 +9,7 @@ struct Partition::Cuts {};
 Partition::Partition(int) {}
 Partition::~Partition() = default;
 void Partition::cut(const std::vector<Weighted>&) {}
+bool Partition::restless() const { return false; }
 int Partition::owner(const BlockKey&) const { return 0; }
 
 }  // namespace krater

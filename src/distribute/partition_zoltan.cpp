@@ -14,7 +14,9 @@ namespace krater {
 /// Zoltan asks for the blocks by callbacks, and keeps the cuts.
 struct Partition::Cuts {
   int dimension;
-  bool scattered;  ///< every block anywhere: what no sum may notice (tests)
+  bool
+      scattered;  ///< every block anywhere, elsewhere after each cut: what no sum may notice (tests)
+  int shuffles = 0;
   Zoltan_Struct* zoltan = nullptr;
   const std::vector<Weighted>* blocks = nullptr;
 
@@ -71,7 +73,10 @@ Partition::Partition(int dimension) : cuts_{std::make_unique<Cuts>(dimension)} {
 Partition::~Partition() = default;
 
 void Partition::cut(const std::vector<Weighted>& own) {
-  if (cuts_->scattered) return;
+  if (cuts_->scattered) {
+    ++cuts_->shuffles;
+    return;
+  }
   cuts_->blocks = &own;
   int changes = 0, wide_global = 0, wide_local = 0, imports = 0, exports = 0;
   ZOLTAN_ID_PTR import_global = nullptr, import_local = nullptr, export_global = nullptr,
@@ -87,9 +92,12 @@ void Partition::cut(const std::vector<Weighted>& own) {
     throw NumericalError("the blocks could not be dealt out among the ranks (Zoltan)");
 }
 
+bool Partition::restless() const { return cuts_->scattered; }
+
 int Partition::owner(const BlockKey& key) const {
   if (cuts_->scattered)
-    return static_cast<int>(hash_of(key, 0) % static_cast<std::size_t>(ranks::count()));
+    return static_cast<int>(hash_of(key, cuts_->shuffles) %
+                            static_cast<std::size_t>(ranks::count()));
   double place[3] = {};
   for (int a = 0; a < cuts_->dimension; ++a) place[a] = key.i[static_cast<std::size_t>(a)] + 0.5;
   int rank = 0, part = 0;

@@ -27,6 +27,8 @@ class Partition {
   void cut(const std::vector<Weighted>& own);
   /// Of any block, by the last cut.
   int owner(const BlockKey& key) const;
+  /// It is a test that wants cuts often, whether they are needed or not (KRATER_DEAL=scattered).
+  bool restless() const;
 
  private:
   struct Cuts;
