@@ -61,9 +61,9 @@ class Row:
         return (self.summary.get("measures", {}).get(name) or {}).get("unit", "m/s" if "." in name else "")
 
     def reference(self, name):
-        """(value, source) of the scene's reference, or None."""
+        """(value, source, error or None) of the scene's reference, or None."""
         found = (self.summary.get("measures", {}).get(name) or {}).get("reference")
-        return (found["value"], found.get("source", "")) if found else None
+        return (found["value"], found.get("source", ""), found.get("error")) if found else None
 
     @property
     def cell(self):
