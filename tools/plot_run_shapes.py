@@ -144,7 +144,9 @@ def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
     bodies = [body for body in bodies if body.cells is None]
     if not bodies:
         return
-    section = Section(run, bodies, box * mm, pixels, [colouring.values], least=3.0)
+    window = axes.get_window_extent()
+    drawn = max((box[1] - box[0]) / window.width, (box[3] - box[2]) / window.height) * mm
+    section = Section(run, bodies, box * mm, pixels, [colouring.values], least=3.0, drawn=drawn)
     image, there = np.ones(section.cover.shape + (4,)), section.which >= 0
     image[there] = colouring.rgba(section.values[0][there])
     axes.imshow(image, origin="lower", extent=section.raster.extent(mm), interpolation="antialiased")

@@ -302,7 +302,7 @@ class Run:
     def title(self):
         """The scene's own, and what `--set` made other than it says."""
         title = str(self.summary.get("title") or os.path.basename(os.path.abspath(self.folder)))
-        changed = [text for text in self.set_values() if not text.startswith(("title=", "output.", "time.checkpoint"))]
+        changed = [text for text in self.set_values() if not text.startswith(("title=", "output.", "time.checkpoint", "time.energy_error"))]
         return title + (" · with " + ", ".join(changed) if changed else "")
 
 
