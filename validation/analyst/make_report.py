@@ -155,10 +155,10 @@ def pages(study, whipple):
     timed("a Whipple shield", tool("report"), whipple.folder, "-o", "whipple.html")
     timed("the manual", tool("manual"), "-o", out / "manual")
     shots = [(out / "taylor/report.html", "page.png", ["document.getElementById('field').value = 'pressure'",
-                                                       "document.getElementById('field').onchange()", "player.go(3)"]),
-             (out / "taylor/report.html", "page_measures.png", ["document.querySelectorAll('h2')[1].scrollIntoView()"]),
-             (out / "two.html", "page_two.png", ["document.getElementById('over').click()"]),
-             (out / "whipple.html", "page_whipple.png", ["player.go(4)"])]
+                                                       "document.getElementById('field').onchange()", "location.hash = 'sections'", "player.go(3)"]),
+             (out / "taylor/report.html", "page_measures.png", ["location.hash = 'measures'"]),
+             (out / "two.html", "page_two.png", ["document.getElementById('over').click()", "location.hash = 'sections'"]),
+             (out / "whipple.html", "page_whipple.png", ["location.hash = 'sections'", "player.go(4)"])]
     for path, name, scripts in shots:
         troubles, requests = photograph(path, name, scripts)
         wrong += troubles + requests
