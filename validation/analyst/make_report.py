@@ -146,14 +146,14 @@ def photograph(path, name, scripts=(), size=(1280, 900), drawn=DRAWN):
 
 def pages(study, whipple):
     """The page of a run, of two, and of the manual."""
-    out = pathlib.Path(study.folder, "runs_out")
+    out, manual = pathlib.Path(study.folder, "runs_out"), pathlib.Path(tempfile.mkdtemp(prefix="krater manual "))
     other = study.run("slower", ["bodies.rod.velocity=[0, -150 m/s]"], 2)
     rows, wrong = [], []
     timed = Timed(study, out)
     timed("one run", tool("report"), "taylor")
     timed("two runs", tool("report"), "taylor", other.folder, "-o", "two.html")
     timed("a Whipple shield", tool("report"), whipple.folder, "-o", "whipple.html")
-    timed("the manual", tool("manual"), "-o", out / "manual")
+    timed("the manual", tool("manual"), "-o", manual)
     shots = [(out / "taylor/report.html", "page.png", ["document.getElementById('field').value = 'pressure'",
                                                        "document.getElementById('field').onchange()", "location.hash = 'sections'", "player.go(3)"]),
              (out / "taylor/report.html", "page_measures.png", ["location.hash = 'measures'"]),
@@ -163,12 +163,13 @@ def pages(study, whipple):
         troubles, requests = photograph(path, name, scripts)
         wrong += troubles + requests
     for page, name in (("tutorials/taylor.html", "manual_tutorial.png"), ("reference.html#measure", "manual_reference.png")):
-        place = out / "manual/site" / page.partition("#")[0]
+        place = manual / "site" / page.partition("#")[0]
         photograph(place, name, [f"location.hash = '{page.partition('#')[2]}'"], drawn="document.readyState === 'complete'")
     for path, said in (("taylor/report.html", 0), ("two.html", 1), ("whipple.html", 2)):
         rows.append([timed.rows[said][0].strip("`"), f"{(out / path).stat().st_size / 1e6:.2f} MB", timed.rows[said][2]])
-    whole = sum(path.stat().st_size for path in (out / "manual/site").rglob("*") if path.is_file())
+    whole = sum(path.stat().st_size for path in (manual / "site").rglob("*") if path.is_file())
     rows.append(["the manual (mkdocs)", f"{whole / 1e6:.1f} MB", timed.rows[3][2]])
+    shutil.rmtree(manual)
     study.add("## Pages", "In headless Chromium, 1280 x 900. " + ("Nothing went wrong in them and nothing was asked of the network."
               if not wrong else f"**Wrong in them**: {wrong[:3]}"))
     study.add_table(["page", "size", "processors"], rows)
