@@ -107,11 +107,11 @@ class Checker:
             self.error(path, line_of(text, match.start()), f"'{match.group(0)}': no such document in the tree")
 
     def of_manual(self, path, text, name):
-        """A page that tools/manual makes (it stands in mkdocs.yml), or a file that a tutorial lets its reader write."""
+        """A page that tools/manual makes (it stands in mkdocs.yml), or a file that the page lets its reader write."""
         pages = self.root / "src/manual"
         if pages not in path.parents or not name:
             return False
-        if f"Write this as `{name}`" in text:
+        if any(written.endswith(name) for written in re.findall(r"Write this as `([^`]+)`", text)):
             return True
         menu = (pages / "mkdocs.yml").read_text(encoding="utf-8")
         return f": {name.rpartition('../')[2]}\n" in menu
@@ -142,7 +142,8 @@ class Checker:
         for match in QUOTED.finditer(text):
             for place in PLACE.finditer(match.group(1)):
                 name = place.group(1)
-                if not self.find(path, name) and not self.find(path, name + ".*") and not self.find_test(name):
+                if not (self.find(path, name) or self.find(path, name + ".*") or self.find_test(name)
+                        or self.of_manual(path, text, name)):
                     self.error(path, line_of(text, match.start()), f"no '{name}'")
 
     def check_equations(self, path, text):

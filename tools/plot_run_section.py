@@ -16,15 +16,17 @@ from plot_run_raster import HALF, Fraction, Raster, stamp
 class Section:
     """`cover` (volume fraction of the fullest body), `which` (its number in `bodies`, -1: none) and `values` (one array for
     each of the fields; NaN where it is absent or no number) over a raster. `fields`: functions of a body that return values
-    of its points, or None. A body counts from the volume fraction `half` on."""
+    of its points, or None. A body counts from the volume fraction `half` on.
+    `drawn`: side of a pixel of the picture, where that is larger than the raster's."""
 
-    def __init__(self, run, bodies, box, pixels, fields, least=1.0, half=HALF):
+    def __init__(self, run, bodies, box, pixels, fields, least=1.0, half=HALF, drawn=0.0):
         cell = float(run.summary.get("cell") or 2 * np.median(bodies[0].side)) / 2 ** run.finest
         self.raster = Raster(box, cell, pixels)
         shape = self.raster.shape
         self.cover, self.which = np.zeros(shape), np.full(shape, -1)
         self.values = [np.full(shape, np.nan) for _ in fields]
-        self.most, self.half, self.least = np.full(shape, half), half, least
+        self.most, self.half = np.full(shape, half), half
+        self.least = least * max(1.0, drawn / self.raster.pixel)
         for number, body in enumerate(bodies):
             values = [field(body) for field in fields]
             (self.add_points if body.cells is None else self.add_elements)(run, number, body, values)

@@ -10,7 +10,7 @@ from matplotlib import cm, colormaps, colors, patches, patheffects
 from plot_run_elements import draw_elements, draw_surfaces
 from plot_run_raster import box_mean, stamp
 from plot_run_section import Section
-from run_reader import reference_of
+from run_reader import reference_error, reference_of
 from units import quantity, scale_of
 
 ABSENT = -1e300
@@ -144,7 +144,9 @@ def draw_section(axes, run, bodies, colouring, mm, box, pixels=1000):
     bodies = [body for body in bodies if body.cells is None]
     if not bodies:
         return
-    section = Section(run, bodies, box * mm, pixels, [colouring.values], least=3.0)
+    window = axes.get_window_extent()
+    drawn = max((box[1] - box[0]) / window.width, (box[3] - box[2]) / window.height) * mm
+    section = Section(run, bodies, box * mm, pixels, [colouring.values], least=3.0, drawn=drawn)
     image, there = np.ones(section.cover.shape + (4,)), section.which >= 0
     image[there] = colouring.rgba(section.values[0][there])
     axes.imshow(image, origin="lower", extent=section.raster.extent(mm), interpolation="antialiased")
@@ -276,14 +278,16 @@ def draw_measures(axes, run, bodies, box, mm, unit):
         value, (wanted, source) = measure["value"], reference_of(measure)
         text = f"{name.replace('_', ' ')}\n{value / mm:#.5g} {unit}"
         if wanted:
-            text += f"\nreference {wanted / mm:#.5g} {unit} ({100 * (value / wanted - 1):+.1f} %)"
+            bar = "" if reference_error(measure) is None else f" ± {reference_error(measure) / mm:.2g}"
+            text += f"\nreference {wanted / mm:#.5g}{bar} {unit} ({100 * (value / wanted - 1):+.1f} %)"
             sources.append(source)
         labels.append((z, text))
     place_labels(axes, labels)
     if labels:
         axes.plot([], [], "-", color="black", label="computed")
-    for source in dict.fromkeys(sources):
-        axes.plot([], [], "--", color=REFERENCE, lw=2, label=textwrap.fill("reference: " + source, 60))
+    if sources:
+        told = "\n".join(textwrap.fill(source, 72, subsequent_indent="  ") for source in dict.fromkeys(sources))
+        axes.plot([], [], "--", color=REFERENCE, lw=2, label="reference: " + told)
     if labels:
         axes.legend(loc="upper left", bbox_to_anchor=(0, -0.95 / axes.bbox.height * axes.figure.dpi),
                     frameon=False, fontsize=10, borderaxespad=0)

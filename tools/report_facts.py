@@ -8,7 +8,7 @@ import os
 import numpy as np
 import yaml
 
-from run_reader import reference_of
+from run_reader import reference_error, reference_of
 from units import said, scale_of
 
 COLOURS = ["#1f5f99", "#b5402a", "#2c8a4b", "#c98a1b", "#7d5ba6", "#1795a8"]  # of runs
@@ -163,13 +163,14 @@ def label(run, runs):
 
 # ------------------------------------------------------------------------------------------ measures
 
-def whisker(off, band, most):
-    """A dot at its distance from the reference [%], with its band, on a scale to +-most."""
+def whisker(off, band, bar, most):
+    """A dot at its distance from the reference [%] with its band, and the bar that the reference has, on a scale to +-most."""
     w, middle = 260, 130
     def x(v):
         return middle + (middle - 12) * max(-1.0, min(1.0, v / most))
     out = [f"<svg width={w} height=20 role=img aria-label='{off:+.2f} %'>",
            f"<line x1=12 x2={w - 12} y1=10 y2=10 stroke=#e1e6ea />",
+           "" if bar is None else f"<rect class=theirs x={x(-bar):.1f} width={x(bar) - x(-bar):.1f} y=3 height=14 fill=#b5402a opacity=0.2 />",
            f"<line x1={middle} x2={middle} y1=1 y2=19 stroke=#b5402a stroke-width=1.6 />"]
     if band is not None:
         out.append(f"<line x1={x(off - band):.1f} x2={x(off + band):.1f} y1=10 y2=10 stroke=#1f5f99 stroke-width=2 />")
@@ -187,22 +188,25 @@ def offs_of(runs):
             wanted = reference_of(measure)[0]
             if wanted and isinstance(measure.get("value"), (int, float)):
                 yield abs(100 * (measure["value"] / wanted - 1)) + abs(100 * (measure.get("uncertainty") or 0) / wanted)
+                yield abs(100 * (reference_error(measure) or 0) / wanted)
 
 
 def measure_row(name, measure, run, runs, most):
     value, (wanted, source), band = measure.get("value"), reference_of(measure), measure.get("uncertainty")
+    bar = reference_error(measure)
     numbers = [abs(v) for v in (value, wanted) if isinstance(v, (int, float))]
     divisor, unit = scale_of(max(numbers, default=0), measure.get("unit", ""))
     def shown(v, digits=5):
         return "-" if not isinstance(v, (int, float)) else f"{v / divisor:.{digits}g}"
     off = 100 * (value / wanted - 1) if wanted and isinstance(value, (int, float)) else None
-    drawn = "" if off is None else whisker(off, None if band is None else abs(100 * band / wanted), most)
+    drawn = "" if off is None else whisker(off, *(None if v is None else abs(100 * v / wanted) for v in (band, bar)), most)
     notes = [f"{measure['keep']}, at {said(measure.get('time'), 's')}"] if measure.get("keep") else []
     notes += ["rarefied: hardly a surface"] if measure.get("rarefied") else []
     notes += [str(measure["uncertainty_from"])] if measure.get("uncertainty_from") else []
     notes += [source] if wanted is not None else []
     first = [text(name.replace("_", " "))] + ([text(label(run, runs))] if len(runs) > 1 else [])
-    return first + [shown(value), "?" if band is None else shown(band, 2), text(unit), shown(wanted),
+    return first + [shown(value), "?" if band is None else shown(band, 2), text(unit),
+                    shown(wanted) + ("" if bar is None else f" ± {shown(bar, 2)}"),
                     "" if off is None else f"{off:+.2f} %", drawn, f"<span class=soft>{text('; '.join(notes))}</span>"]
 
 
@@ -222,6 +226,8 @@ def measures_section(runs):
                 "<code>krater run SCENE --accuracy 2%</code> or a <code>krater study</code> finds it.</p>")
     else:
         out += "<p class=soft>± is meant to hold the limit of small cells in nine of ten cases; the red line is the reference.</p>"
+    if any(reference_error(m) for run in runs for m in (run.summary.get("measures") or {}).values() if isinstance(m, dict)):
+        out += "<p class=soft>The red bar is the error that the reference's own source gives.</p>"
     for run in runs:
         out += "".join(f"<p><b>{text(name)}</b>: {text(str(of.get('outcome', '')).replace('_', ' '))}, residual speed "
                        f"{said(of.get('residual_speed'), 'm/s')}</p>" for name, of in (run.summary.get("outcomes") or {}).items())

@@ -11,6 +11,7 @@ All numbers are SI. What is asked for and is not there is an `Unknown` with what
 
 import csv
 import ctypes
+import difflib
 import glob
 import json
 import math
@@ -257,9 +258,11 @@ class Run:
         if any(find_field(group, name) for group in groups):
             return
         parts = sorted({part for group in groups for part in components(group)})
-        raise Unknown(f"no field '{name}' was written to {self.folder}. Written: {', '.join(self.fields())}; components: "
-                      f"{', '.join(parts)}. Where a law of the scene keeps it, "
-                      f"`output: {{fields: [{name}]}}` writes it: add that and run again (`krater models` lists what laws keep)")
+        near = difflib.get_close_matches(name, [*self.fields(), *parts], 1, 0.75)
+        remedy = f"Did you mean {near[0]}?" if near else f"Where a law of the scene keeps it, `output: {{fields: [{name}]}}` writes " \
+            "it: add that and run again (`krater models` lists what laws keep)"
+        raise Unknown(f"no field '{name}' was written to {self.folder}. {remedy} Written: {', '.join(self.fields())}; components: "
+                      f"{', '.join(parts)}")
 
     def at(self, text):
         """Number of the frame at a time: `first`, `last`, or the nearest to "30 us"."""
@@ -299,7 +302,7 @@ class Run:
     def title(self):
         """The scene's own, and what `--set` made other than it says."""
         title = str(self.summary.get("title") or os.path.basename(os.path.abspath(self.folder)))
-        changed = [text for text in self.set_values() if not text.startswith(("title=", "output.", "time.checkpoint"))]
+        changed = [text for text in self.set_values() if not text.startswith(("title=", "output.", "time.checkpoint", "time.energy_error"))]
         return title + (" · with " + ", ".join(changed) if changed else "")
 
 
@@ -335,3 +338,10 @@ def reference_of(measure):
         reference = {"value": reference}
     value = reference.get("value")
     return (value if isinstance(value, (int, float)) else None), str(reference.get("source") or "reference")
+
+
+def reference_error(measure):
+    """Half the bar that the source of a measure's reference gives, or None."""
+    reference = measure.get("reference")
+    error = reference.get("error") if isinstance(reference, dict) else None
+    return error if isinstance(error, (int, float)) else None

@@ -41,6 +41,8 @@ def said(value, unit, digits=4):
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         return "-" if value is None or isinstance(value, float) else str(value)
     divisor, name = scale_of(value, unit)
+    if name[:1] == "n" and abs(value) < 0.01 * divisor and value != 0:  # below the ladder: 8.5e-14 J
+        divisor, name = 1, str(unit)
     return f"{value / divisor:.{digits}g}" + ("" if name == "°" else " ") * bool(name) + name
 
 

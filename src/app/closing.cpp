@@ -41,7 +41,8 @@ using Row = std::array<std::string, 6>;
 
 Row measure_row(const std::string& name, const Json& measure) {
   const double value = number(&measure, "value"), band = number(&measure, "uncertainty");
-  const double wanted = number(find(&measure, "reference"), "value");
+  const Json* reference = find(&measure, "reference");
+  const double wanted = number(reference, "value"), bar = number(reference, "error");
   const double off = number(&measure, "difference_percent");
   const Json* unit = find(&measure, "unit");
   const double largest = std::max(std::isfinite(value) ? std::abs(value) : 0,
@@ -51,7 +52,8 @@ Row measure_row(const std::string& name, const Json& measure) {
           text(value, shown.size, 5),
           std::isfinite(band) ? text(band, shown.size, 2) : "?",
           shown.name,
-          text(wanted, shown.size, 5),
+          text(wanted, shown.size, 5) +
+              (std::isfinite(bar) ? " +- " + text(bar, shown.size, 2) : std::string{}),
           std::isfinite(off) ? fmt::format("{:+.2f} %", off) : "-"};
 }
 

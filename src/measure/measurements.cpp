@@ -182,6 +182,7 @@ Json measure_json(const MeasureOptions& m, const Scene& scene, const MeasureStar
   }
   if (!m.reference) return j;
   j["reference"]["value"] = Json::of(*m.reference);
+  if (m.reference_error) j["reference"]["error"] = Json::of(*m.reference_error);
   j["reference"]["source"] = Json::of(m.reference_source);
   j["difference_percent"] = Json::of(100 * (value - *m.reference) / *m.reference);
   return j;

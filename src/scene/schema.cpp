@@ -186,11 +186,22 @@ class Writer {
     return out;
   }
 
+  /// One of its variants: editors take the one whose word stands there.
+  Json of_variants(const BlockInfo& block) {
+    Json all = Json::array();
+    for (const BlockInfo& variant : block.variants) all.items.push_back(reference(variant));
+    return all;
+  }
+
   Json of_block(const BlockInfo& block) {
     Json out, properties, required = Json::array();
     out["title"] = Json::of(block.name);
     out["description"] = Json::of(block.meaning);
     out["type"] = Json::of("object");
+    if (!block.variants.empty()) {
+      out["anyOf"] = of_variants(block);
+      return out;
+    }
     out["additionalProperties"] = Json::of(false);
     for (const KeyInfo& key : block.keys) {
       if (key.key == "*") {

@@ -19,6 +19,8 @@ import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 from PIL import Image  # noqa: E402
 from plot_run_one import Picture  # noqa: E402
+from plot_run_raster import Fraction, Raster  # noqa: E402
+from plot_run_solid import LONE, at_corner, voxels  # noqa: E402
 from run_reader import Run  # noqa: E402
 
 COARSE = ["grid.cell=0.762mm", "time.end=16us", "output.frames=4us"]
@@ -106,6 +108,28 @@ def sections():
     check(abs(share - np.sqrt(1 - (3 / 3.81) ** 2)) < 0.06, "a section off the middle is as wide as the chord there", share)
 
 
+def debris():
+    """What is loose is drawn by itself; the corners of a body, which its outline rounds off, are no debris."""
+    def lattice(*counts):
+        return np.stack(np.meshgrid(*((np.arange(n) + 0.5) / 2 for n in counts), indexing="ij"), axis=-1).reshape(-1, len(counts))
+
+    raster = Raster((0, 20, 0, 20), 1.0, 400)
+    block, sheet, lone = lattice(20, 12) + [3.13, 3.37], lattice(20, 1) + [3.2, 13.1], np.array([[17.3, 17.6]])
+    flat = np.concatenate([block, sheet, lone])
+    inside = Fraction(raster, "plane_strain", np.insert(flat, 1, 0.0, axis=1), np.full(len(flat), 0.25), [])
+    alone = set(inside.isolated())
+    check(alone == set(range(len(block), len(flat))), "drawn alone: the sheet of one point and the lone point, no corner of the block",
+          f"{len(alone)} of {len(sheet) + 1}; corners {sorted(alone & set(range(len(block))))}")
+    cube, lone = lattice(8, 8, 8) * 1.03 + 3.1, np.array([[12.0, 5.0, 5.0]])
+    x = np.concatenate([cube, lone])
+    low, pixel, shape, field = voxels(x, np.full(len(x), 0.125), 1.0, [])
+    phi = field(np.full(len(x), 0.125))
+    here = np.clip(np.rint((x - low) / pixel).astype(int), 0, shape - 1)
+    left_out = (phi[tuple(here.T)] < LONE) & ~at_corner(phi, here, 1 / pixel)
+    check((phi[tuple(here.T)] < LONE).sum() > 8 and list(np.flatnonzero(left_out)) == [len(cube)], "the same in space",
+          f"{left_out.sum()} of {(phi[tuple(here.T)] < LONE).sum()} points below {LONE}")
+
+
 def views():
     if importlib.util.find_spec("vtk") is None or not (shutil.which("Xvfb") or os.environ.get("DISPLAY")):
         print("skipped: no VTK or no screen, so no surfaces (tools/setup --pictures)")
@@ -127,6 +151,7 @@ def errors():
     for arguments, texts in (
             (["flat", "--field", "damage"], ["no field 'damage'", "plastic_strain", "stress_zz", "output: {fields: [damage]}"]),
             (["flat", "--field", "velocity_y"], ["no field 'velocity_y'", "velocity_z"]),
+            (["flat", "--field", "presure"], ["no field 'presure'", "Did you mean pressure?"]),
             (["flat", "--body", "plate"], ["no body 'plate'", "rod"]),
             (["flat", "--time", "90us"], ["time 90 µs", "5 frames from 0", "16 µs", "time: {end"]),
             (["flat", "--time", "soon"], ["'soon'", "30 us", "`first`, `last`"]),
@@ -148,7 +173,7 @@ def main():
     with Folder():
         run("flat", *COARSE)
         run("solid", *SOLID)
-        for test in (formats, films, one_scale, fields, sections, views, errors):
+        for test in (formats, films, one_scale, fields, sections, debris, views, errors):
             test()
     finish()
 

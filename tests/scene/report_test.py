@@ -52,6 +52,14 @@ def bands(page_of):
     report("coarse", "-o", "band.html")
     page = pathlib.Path("band.html").read_text(encoding="utf-8")
     check(">0.3<" in page and "study of three cells" in page and "± is not known" not in page, "a study's band stands beside")
+    check("class=theirs" not in page and all(s["error"] is None for c in data_of(page)["charts"] for s in c["series"]), "no bar without an error")
+    told["measures"]["final_length"]["reference"]["error"] = 4e-4
+    pathlib.Path("coarse/summary.json").write_text(json.dumps(told), encoding="utf-8")
+    report("coarse", "-o", "barred.html")
+    page = pathlib.Path("barred.html").read_text(encoding="utf-8")
+    charted = [s["error"] for c in data_of(page)["charts"] for s in c["series"] if s["name"] == "final length"]
+    check(">16.205 ± 0.4<" in page and page.count("class=theirs") == 1 and charted and abs(charted[0] - 0.4) < 1e-12,
+          "the error that a reference's source gives stands beside and in the chart", charted)
 
 
 def warnings(page):

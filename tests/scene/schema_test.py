@@ -59,7 +59,7 @@ def everything_said(made):
     for name, block in made["definitions"].items():
         if len(block.get("description", "")) < 3:
             silent.append(name)
-        for key, info in block["properties"].items():
+        for key, info in block.get("properties", {}).items():
             keys += 1
             if not info.get("x-meaning", "").strip() or not info.get("x-takes") or not info.get("x-default"):
                 silent.append(f"{name}.{key}")
@@ -100,9 +100,52 @@ def readers_ask(made):
               f"only asked {sorted(asked - declared)}, only declared {sorted(declared - asked)} {'' if known else said[:200]}")
 
 
+# A kind asks for one of these in its own way: what the reader is given, so that it goes on to the next key.
+GIVEN = {"axis": "z", "by": "z_min", "at": {"z": 0.01}, "field": "pressure", "target": "wall", "face": "z_max"}
+
+
+def kinds_ask(made):
+    """Each kind of measure: the reader asks for the keys of its block, in 3d where a turn has an axis, and what is required is.""" 
+    base = yaml.safe_load((ROOT / "inputs" / "ccf_plugging.yaml").read_text(encoding="utf-8"))
+    base.pop("references", None)
+    base.pop("outcomes", None)
+    base.pop("gauges", None)
+    body, other = list(base["bodies"])[:2]
+    variants = [made["definitions"][one["$ref"].rpartition("/")[2]] for one in made["definitions"]["measure"]["anyOf"]]
+    check(len(variants) > 25, "a block for each kind of measure", str(len(variants)))
+    measures = {}
+    for variant in variants:
+        kind = variant["properties"]["kind"]["enum"][0]
+        keys = {**GIVEN, "target": other, "by": other}
+        measures[kind] = {"kind": kind, "body": body, **{key: keys[key] for key in variant["required"] if key in keys}, "qqq": 1}
+    said = ""
+    for first in range(0, len(measures), 8):  # krater lists the first problems only
+        base["measures"] = dict(list(measures.items())[first:first + 8])
+        pathlib.Path("kinds.yaml").write_text(yaml.safe_dump(base), encoding="utf-8")
+        said += krater("check", "kinds.yaml", "--set", "frame=3d").stderr
+    asked = {kind: set(known.split(", ")) for kind, known in
+             re.findall(r"measures\.(\w+)\.qqq: unknown key 'qqq' \((?:did you mean \w+\? )?known: ([^)]*)\)", said)}
+    for variant in variants:
+        kind = variant["properties"]["kind"]["enum"][0]
+        declared = set(variant["properties"])
+        check(asked.get(kind) == declared, f"measure {kind}: the reader asks for the declared keys",
+              f"asked {sorted(asked.get(kind, set()) - declared)}, declared {sorted(declared - asked.get(kind, set()))}")
+    missing = []
+    for variant in variants:  # without each required key: refused by both
+        kind = variant["properties"]["kind"]["enum"][0]
+        for key in set(variant["required"]) - {"kind", "body"}:
+            measure = {k: v for k, v in measures[kind].items() if k not in (key, "qqq")}
+            changed = {**base, "measures": {kind: measure}}
+            if not errors(made, changed):
+                missing.append(f"{kind} without {key}")
+    check(not missing, "a kind without what it requires is refused", missing)
+
+
 MISTAKES = [("time", "ends", 1), ("method", "shape", "cubic"), ("grid", "cell", -1), ("grid", "cell", "fine"),
             ("output", "frames", [1]), ("bodies", "rod", {"material": "copper"}), ("method", "stagger", "perhaps"),
-            ("method", "points_per_direction", 9), ("bodies", "rod", {"material": "copper", "shape": {"cube": {}}})]
+            ("measures", "m", {"kind": "mass", "body": "rod", "axis": "z"}), ("measures", "m", {"kind": "extent", "body": "rod"}),
+           ("measures", "m", {"kind": "extent", "body": "rod", "axis": [1, 0, 1]}), ("references", "final_length", {"value": 1, "error": -1}),
+           ("method", "points_per_direction", 9), ("bodies", "rod", {"material": "copper", "shape": {"cube": {}}})]
 
 
 def same_refusals(made):
@@ -126,6 +169,7 @@ def main():
         everything_said(scene)
         everything_said({"definitions": {**scene["definitions"], **point["definitions"]}})
         readers_ask(scene)
+        kinds_ask(scene)
         same_refusals(scene)
     finish()
 

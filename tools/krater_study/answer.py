@@ -80,5 +80,5 @@ def reference_of(study, rows, name):
         found = row.reference(name)
         if found:
             share = study.truth.get(name, (0, None, 0))[1]
-            return found[0], None if share is None else share * abs(found[0]), found[1]
+            return found[0], found[2] if share is None else share * abs(found[0]), found[1]
     return None

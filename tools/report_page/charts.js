@@ -60,7 +60,7 @@ class Chart {
     for (const s of this.shown()) {
       for (const x of s.t) { t[0] = Math.min(t[0], x); t[1] = Math.max(t[1], x); }
       for (const y of s.v) { v[0] = Math.min(v[0], y); v[1] = Math.max(v[1], y); }
-      if (s.reference != null) { v[0] = Math.min(v[0], s.reference); v[1] = Math.max(v[1], s.reference); }
+      if (s.reference != null) { v[0] = Math.min(v[0], s.reference - (s.error || 0)); v[1] = Math.max(v[1], s.reference + (s.error || 0)); }
     }
     if (!(t[1] > t[0])) t = [0, 1];
     if (!(v[1] >= v[0])) v = [0, 1];
@@ -96,6 +96,9 @@ class Chart {
       element(this.svg, "path", { d, fill: "none", stroke: s.colour, "stroke-width": 1.8, "stroke-dasharray": s.dash || "none", "stroke-linejoin": "round" });
       if (s.reference != null) {
         const y = this.Y(s.reference);
+        if (s.error)
+          element(this.svg, "rect", { class: "bar", x: L, width: W - R - L, y: this.Y(s.reference + s.error), fill: s.colour, opacity: 0.12,
+            height: this.Y(s.reference - s.error) - this.Y(s.reference + s.error) });
         element(this.svg, "line", { x1: L, x2: W - R, y1: y, y2: y, stroke: s.colour, "stroke-width": 1.2, "stroke-dasharray": "2 4" });
       }
     }

@@ -101,7 +101,8 @@ struct MeasureOptions {
   double mass_share = 1;     ///< debris_extent: that it holds; maximum, minimum: beyond the value
   Keep keep = Keep::now;     ///< value: at the time of measuring, or the extreme so far
   bool in_history = true;
-  std::optional<double> reference;  ///< SI
+  std::optional<double> reference;        ///< SI
+  std::optional<double> reference_error;  ///< half the bar that its source gives [SI]
   std::string reference_source;
 };
 

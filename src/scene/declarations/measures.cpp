@@ -2,6 +2,9 @@
 // What is asked of a run: measures, references, outcomes, gauges.
 #include "krater/scene/measures.hpp"
 
+#include <string_view>
+#include <utility>
+
 #include "scene/declarations/declarations.hpp"
 #include "scene/readers/readers.hpp"
 
@@ -29,10 +32,12 @@ std::vector<std::string> field_names() {
   return names;
 }
 
-const BlockInfo& measure_block() {
-  static const BlockInfo info{
+namespace {
+
+BlockInfo of_every_kind() {
+  return BlockInfo{
       "measure",
-      "A number to follow. Which keys a kind takes, and its unit, is in the table of kinds.",
+      "A number to follow. Its kind says which keys it takes.",
       {{"kind", "what is measured", {word(kinds())}, kMust},
        {"body", "a body, or a list of them", {text(), list({text()})}, kMust},
        {"axis",
@@ -68,6 +73,65 @@ const BlockInfo& measure_block() {
         {word({"now", "largest", "smallest"})},
         "now"},
        {"history", "is it a column of the history?", {flag()}, "(by kind)"}}};
+}
+
+/// A word in the table of kinds, the key it stands for, and what it is there when left out.
+struct Told {
+  std::string_view word;
+  const char *key, *fallback;
+};
+
+constexpr Told kTold[] = {{"axis", "axis", kMust},
+                          {"direction", "axis", kMust},
+                          {"turn", "axis", "(required in 3d)"},
+                          {"by", "by", kMust},
+                          {"at", "at", kMust},
+                          {"field", "field", kMust},
+                          {"target", "target", kMust},
+                          {"face", "face", kMust},
+                          {"z_face", "face", kMust},
+                          {"level", "level", "(grid.cell)"},
+                          {"within", "within", "(all heights)"},
+                          {"mass_share", "mass_share", ""}};
+
+/// The block of one kind: the keys of every measure and those that the table of kinds names.
+BlockInfo of_kind(const MeasureKindInfo& kind, const BlockInfo& every) {
+  const std::string unit = *kind.unit == '\0' ? "that of the field" : kind.unit;
+  BlockInfo out{
+      "measure." + std::string{kind.name}, std::string{kind.meaning} + " [" + unit + "]", {}};
+  const auto take = [&](const char* key, std::string fallback) {
+    out.keys.push_back(declared(every, key));
+    out.keys.back().fallback = std::move(fallback);
+  };
+  take("kind", kMust);
+  out.keys.back().forms = {word({kind.name})};
+  take("body", kMust);
+  const std::string keys = " " + std::string{kind.keys} + " ";
+  for (const Told& told : kTold) {
+    if (keys.find(" " + std::string{told.word} + " ") == std::string::npos) continue;
+    const bool extent = kind.kind == MeasureKind::debris_extent;
+    take(told.key, *told.fallback != '\0' ? told.fallback : extent ? "1" : "0.001");
+    if (told.word == "axis") out.keys.back().forms.resize(1);  // no other line
+  }
+  if (kind.selects) {
+    take("piece", kind.whole ? "largest" : "all");
+    take("least_points", kind.kind == MeasureKind::fragments ? "(a piece of two cells)" : "0");
+    take("region", "");
+  }
+  take("keep", "now");
+  take("history", kind.in_history ? "true" : "(true with keep, else false)");
+  return out;
+}
+
+}  // namespace
+
+const BlockInfo& measure_block() {
+  static const BlockInfo info = [] {
+    BlockInfo every = of_every_kind();
+    for (const MeasureKindInfo& kind : measure_kinds())
+      every.variants.push_back(of_kind(kind, every));
+    return every;
+  }();
   return info;
 }
 
@@ -103,6 +167,10 @@ const BlockInfo& reference_block() {
   static const BlockInfo info{"reference",
                               "What a measure should be, and who says so.",
                               {{"value", "what the measure should be", {number("")}, kMust},
+                               {"error",
+                                "half the bar that the source gives, or the scatter of its tests",
+                                {number("", Range::positive)},
+                                "(not known)"},
                                {"source", "where the value is from", {text()}, "(nothing)"}}};
   return info;
 }

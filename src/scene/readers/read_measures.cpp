@@ -330,6 +330,11 @@ Node read_references(const Node* node, Reading& reading) {
     ParameterInfo value = parameter_of(reference.info(), declared(reference.info(), "value"));
     value.unit = unit_of(measure);
     measure.reference = reference.number(value);
+    if (reference.find("error")) {
+      ParameterInfo error = parameter_of(reference.info(), declared(reference.info(), "error"));
+      error.unit = unit_of(measure);
+      measure.reference_error = reference.number(error);
+    }
     measure.reference_source = reference.text("source", "");
     block.record(measure.name, reference.finish());
   }

@@ -64,6 +64,8 @@ struct BlockInfo {
   std::vector<KeyInfo> keys;
   bool one_of = false;  ///< holds one of its keys, or is that word alone
   bool carded = false;  ///< what it lacks may stand in a material card
+  /// Where a word of one key says which others belong: the blocks of each word.
+  std::vector<BlockInfo> variants = {};
 };
 
 /// The declaration of a key, or that of "*"; std::logic_error where there is none: the program
