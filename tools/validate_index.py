@@ -118,6 +118,7 @@ FIGURES = {
                                 r.cell("^the same, 100", "found"),
                                 f"{1 - number(r.cell('^the same, 100', 'found')):.2g}, to the exact"),
     "copper_bar": lambda r: r.finest("foot radius (five codes 7.22)", "foot radius mm", "^R/h = 32", "^R/h = 16"),
+    "distribution": lambda r: Figure("runs on several ranks with the bits of one", r.found(r"\*\*(\d+ of \d+)\*\* identical")),
     "energy": lambda r: Figure("e behind shocks of 1 to 6 km/s, worst at 200 cells", f"{worst(r, '^e, 200'):.2f} %"),
     "fronts": lambda r: Figure("W of Taylor copper to 1 %: core time, cheapest setting",
                                r.cell("^w diameter", "^1 %").split(":")[0]),
