@@ -69,7 +69,10 @@ int dispatch(const Commands& commands, const RunOptions& options, const ModelQue
   try {
     if (!ranks::alone() && !options.accuracy.empty())
       throw InputError("--accuracy makes many runs; start krater without mpirun");
-    if (!ranks::first() && !commands.run.parsed()) return kDone;
+    if (!commands.run.parsed()) {
+      if (!ranks::first()) return kDone;
+      ranks::part();
+    }
     if (commands.study.parsed()) return become_study(words_of_study(commands.study));
     if (!options.accuracy.empty()) return become_study(words_of_accuracy(options));
     if (commands.run.parsed()) return run(options);

@@ -91,6 +91,11 @@ void finish() {
   MPI_Finalize();
 }
 
+void part() {
+  world.index = 0;
+  world.count = 1;
+}
+
 void give_up(const std::string& why, int code) {
   if (world.speech >= 0) dup2(world.speech, STDERR_FILENO);
   std::fprintf(stderr,

@@ -14,8 +14,8 @@ namespace krater {
 /// Zoltan asks for the blocks by callbacks, and keeps the cuts.
 struct Partition::Cuts {
   int dimension;
-  bool bool scattered;  ///< a test: every block anywhere, elsewhere after each cut
-  int shuffles = 0;     ///< cuts of such a test so far
+  bool scattered;    ///< a test: every block anywhere, elsewhere after each cut
+  int shuffles = 0;  ///< cuts of such a test so far
   Zoltan_Struct* zoltan = nullptr;
   const std::vector<Weighted>* blocks = nullptr;
 

@@ -16,6 +16,8 @@ PROGRAM = pathlib.Path(KRATER).with_name("krater_on_ranks")
 if not PROGRAM.exists():
     PROGRAM = pathlib.Path(KRATER)
 INPUTS = ROOT / "inputs"
+LAUNCHER = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np"]
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 CASES = {
     # a wall with friction, symmetry at the axis, blocks that sleep
     "taylor": ("taylor_copper.yaml", ["time.end=8 us", "output.frames=2 us", "grid.cell=0.3 mm"]),
@@ -33,12 +35,10 @@ CASES = {
 
 
 def on_ranks(count, scene, output, *values, extra=(), env=None, threads=1):
-    words = ["mpirun", "--oversubscribe", "-np", str(count), str(PROGRAM), "run", str(INPUTS / scene), "-o", output,
+    words = [*LAUNCHER, str(count), str(PROGRAM), "run", str(INPUTS / scene), "-o", output,
              "-j", str(threads), *settings(values), *map(str, extra)]
-    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-            "OMPI_MCA_btl_base_warn_component_unused": "0"}
     return subprocess.run(words, capture_output=True, text=True, timeout=300, check=False,
-                          env=environment({**root, **(env or {})}))
+                          env=environment({**AS_ROOT, **(env or {})}))
 
 
 def last_line(done):
@@ -83,6 +83,10 @@ def errors():
     done = on_ranks(2, scene, "refused", *values, "method.transfer=xpic")
     check(done.returncode == 2 and "several ranks" in done.stderr, "what cannot be distributed is refused by name",
           done.stderr[:200])
+    done = subprocess.run([*LAUNCHER, "2", str(PROGRAM), "check", str(INPUTS / scene)], capture_output=True, text=True,
+                          timeout=60, check=False, env=environment(AS_ROOT))
+    check(done.returncode == 0 and done.stdout.count("cells on the radius") <= 1 and "points" in done.stdout,
+          "what is no run is done once", done.stderr[-200:])
     done = on_ranks(2, scene, "unknown", "grid.cells=1 mm")
     check(done.returncode == 2 and done.stderr.count("grid.cells") >= 1, "a wrong key ends all ranks", last_line(done))
     pathlib.Path("blocked").write_text("a file")

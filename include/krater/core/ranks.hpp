@@ -24,6 +24,8 @@ struct Message {
 void start(int& argc, char**& argv);
 /// At its end, on every rank that comes to it.
 void finish();
+/// This rank goes on alone: what follows is no work of several.
+void part();
 /// Ends all ranks at once: this one cannot go on, and the others would wait for it for ever.
 [[noreturn]] void give_up(const std::string& why, int code);
 /// "Open MPI v4.1.4", or "no MPI": for `krater --version`.
