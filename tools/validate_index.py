@@ -107,6 +107,7 @@ def worst(report, title):
 FIGURES = {
     "ablations": lambda r: Figure("choices that move no measure by 0.5 %",
                                   r.found(r"\*\*(\d+ of \d+) choices could go")),
+    "analyst": lambda r: Figure("an example to the first picture that was asked for", r.cell("^the first picture", "since the start")),
     "calibration": lambda r: Figure("bands that hold the truth (demanded 90 %)",
                                     r.found(r"\*\*([\d.]+ % of \d+) bands")),
     "ccf_hypervelocity": lambda r: r.finest("penetration at 10 us", "penetration", "^40 cells", "^20 cells"),

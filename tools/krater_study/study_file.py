@@ -55,23 +55,37 @@ class Quantity:
         return f"{value:.9g} {self.unit}".strip()
 
 
-def tree(node, path):
-    if isinstance(node, yaml.ScalarNode):
-        text = Text(node.value)
-        text.line, text.quoted = node.start_mark.line + 1, node.style in ("'", '"')
-        return text
-    if isinstance(node, yaml.SequenceNode):
-        items = Items(tree(item, path) for item in node.value)
-        items.line = node.start_mark.line + 1
-        return items
-    block = Block()
-    for key, value in node.value:
-        line = key.start_mark.line + 1
-        if key.value in block:
-            raise InputError(f"{path}:{line}: {key.value}: the key is there twice; take one away")
-        block[key.value] = tree(value, path)
-        block.lines[key.value] = line
-    return block
+class Tree:
+    """Turns nodes of YAML into Text, Items and Block; bounded as krater's own reader is, for anchors unfold."""
+    MOST_NODES, DEEPEST = 200_000, 40
+
+    def __init__(self, path):
+        self.path, self.nodes = path, 0
+
+    def fail(self, node, message):
+        raise InputError(f"{self.path}:{node.start_mark.line + 1}: {message}")
+
+    def of(self, node, depth=0):
+        self.nodes += 1
+        if self.nodes > self.MOST_NODES or depth > self.DEEPEST:
+            self.fail(node, "too large or too deep (does an anchor contain itself?)")
+        if isinstance(node, yaml.ScalarNode):
+            text = Text(node.value)
+            text.line, text.quoted = node.start_mark.line + 1, node.style in ("'", '"')
+            return text
+        if isinstance(node, yaml.SequenceNode):
+            items = Items(self.of(item, depth + 1) for item in node.value)
+            items.line = node.start_mark.line + 1
+            return items
+        block = Block()
+        for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                self.fail(key, "a key is expected to be a word")
+            if key.value in block:
+                self.fail(key, f"{key.value}: the key is there twice; take one away")
+            block[key.value] = self.of(value, depth + 1)
+            block.lines[key.value] = key.start_mark.line + 1
+        return block
 
 
 def flow(value):
@@ -98,7 +112,7 @@ def load(path):
         raise InputError(f"{path}{f':{mark.line + 1}' if mark else ''}: {getattr(error, 'problem', error)}") from None
     if not isinstance(node, yaml.MappingNode):
         raise InputError(f"{path}: a block of keys is expected (study: convergence, scene: FILE, ...)")
-    return tree(node, path)
+    return Tree(path).of(node)
 
 
 def suggestion(word, known):
@@ -177,7 +191,7 @@ class Study:
         value = self.keys.get(key)
         if value is None:
             return default
-        if not isinstance(value, str) or not value.isdigit() or not 1 <= int(value) <= most:
+        if not isinstance(value, str) or not value.isdecimal() or len(value) > 9 or not 1 <= int(value) <= most:
             self.fail(key, f"a whole number from 1 to {most} is expected, found {flow(value)}")
         return int(value)
 
@@ -251,6 +265,8 @@ class Study:
         if not isinstance(said, list) or not said:
             self.fail("measures", "a list of names is expected")
         for name in said:
+            if not isinstance(name, str):
+                self.fail("measures", f"a list of names is expected, found {flow(name)}")
             if name not in known:
                 self.fail("measures", f"the scene has no measure '{name}' ({suggestion(name, known)})", name.line)
         return [str(name) for name in said]

@@ -84,7 +84,9 @@ class Player {
     this.films.forEach((film, k) => {
       film.canvas.parentNode.style.display = this.overlaid && k > 0 ? "none" : "";
     });
-    const shown = this.films[0].canvas.clientWidth || 600, tall = Math.min(660, Math.max(260, shown * (top - low) / (right - width)));
+    const shown = this.films[0].canvas.clientWidth || 600;
+    const room = Math.min(660, Math.max(300, window.innerHeight - 280));  // with its controls it fits into the window
+    const tall = Math.min(room, Math.max(260, shown * (top - low) / (right - width)));
     for (const film of this.films) {
       film.canvas.style.height = `${Math.round(tall)}px`;
       film.canvas.width = Math.round(shown * sharp);

@@ -8,55 +8,12 @@
 ///   L = sum v+ (x) grad S  (axisymmetric: L_tt = s+_r/r),  tr_c averaged over the cell.
 /// alpha = 1: FLIP; between 0 and 1: TFLIP, with the mean <r> of the points of the body in the cell
 /// (kinematics/mpm/ledger.hpp), so that no momentum leaves it; APIC and XPIC have alpha = 0 and no
-/// <r>. An isolated point (m_p sum S^2 > 0.9 sum S m_i) carries no L to the grid and does not
-/// strain: alone its own pressure would expand it for ever. A failed one, which no tension holds,
-/// needs more company to carry L: two on their own would still expand (0.4).
+/// <r>. Points that see hardly any other: kinematics/mpm/lone.hpp.
 #include "krater/core/stability.hpp"
 #include "krater/kinematics/mpm/ledger.hpp"
-#include "krater/kinematics/mpm/scatter.hpp"
+#include "krater/kinematics/mpm/lone.hpp"
 
 namespace krater::inline KRATER_ISA {
-
-/// The columns the gather touches, as views.
-struct GatherViews {
-  WriteView position, velocity, affine, kept, map, half_width, domain;
-  ReadView grid_position, mass, density, body_acceleration, sound_speed, failed;
-  ReadView old_affine, stress, pressure, viscous, carried;
-  WriteView energy, indicator;
-  WriteView step_gradient, extra_dilatation;
-  ReadView signal;
-};
-
-KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
-                                           const SweepScratch& w) {
-  const auto read = [&](int offset) { return state_view(patch, offset, c.stride, w.zeros); };
-  const auto write = [&](int offset) { return WriteView{patch.points.data() + offset, c.stride}; };
-  return {write(c.position),
-          write(c.velocity),
-          write(c.affine),
-          write(c.grid_velocity),
-          write(c.map),
-          write(c.half_width),
-          write(c.domain),
-          read(c.grid_position),
-          read(c.mass),
-          read(c.density),
-          read(c.body_acceleration),
-          read(c.sound_speed),
-          read(c.failed),
-          read(c.affine),
-          read(c.stress),
-          read(c.pressure),
-          read(c.viscous),
-          read(c.carried),
-          write(c.energy),
-          write(c.indicator),
-          WriteView{w.local + c.local_gradient, c.local_stride},
-          WriteView{w.local + c.local_dilatation, c.local_stride},
-          ReadView{w.local + c.local_signal, c.local_stride}};
-}
-
-KRATER_FORCE_INLINE ReadView reading(WriteView v) { return {v.base, v.stride}; }
 
 /// Copy the tile of nodes around a block: the block itself and its neighbours above.
 /// `nodes`: records of all node blocks, one after the other.
@@ -94,24 +51,6 @@ void load_nodes(const BlockGrid& grid, const Patch& patch, double* halo) {
   }
 }
 
-/// Nodal sums of 8 points, one pack per channel: V[c] value, G[a][c] slope along axis a.
-template <int Dim>
-struct PointSums {
-  Pack V[8], G[Dim][8];
-};
-
-template <int Dim>
-KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>& lw,
-                                      PointSums<Dim>& out) {
-  for (int l = 0; l < kLanes; ++l) {
-    const Gathered<Dim> point = gather_point<Dim>(halo, lw, l);
-    out.V[l] = point.V;
-    for (int a = 0; a < Dim; ++a) out.G[a][l] = point.G[a];
-  }
-  transpose8(out.V);
-  for (int a = 0; a < Dim; ++a) transpose8(out.G[a]);
-}
-
 /// Running sums of a patch, one per lane, folded once at the end.
 struct GatherSums {
   Pack kinetic = 0.0, internal = 0.0, external = 0.0;
@@ -135,26 +74,6 @@ struct PartTraits {
   static constexpr bool ended = Part == GatherPart::strain_only;  ///< strain of the move before
   static constexpr bool last = move;  ///< velocities are final: sum the energies
 };
-
-/// Shares of the mass it sees from which a point does not strain, and from which it carries no L.
-inline constexpr double kAlone = 0.9, kCrowd = 0.4;
-
-struct Alone {
-  Mask lone, silent;
-};
-template <int Dim>
-KRATER_FORCE_INLINE Alone alone_points(const GatherViews& view, const PointSums<Dim>& n,
-                                       const LaneWeights<Dim>& lw, int g) {
-  Pack own = view.mass(g);  // m_p sum S^2: the point's share of the mass it sees
-  for (int a = 0; a < Dim; ++a) {
-    Pack squares = 0.0;
-    for (int i = 0; i < Support::support; ++i)
-      squares = fma(load(lw.w[a][i]), load(lw.w[a][i]), squares);
-    own = own * squares;
-  }
-  const Pack crowd = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
-  return {own > kAlone * n.V[3], own > crowd * n.V[3]};
-}
 
 /// Position of 8 points.
 template <class Frame, class Configuration, GatherPart Part>
@@ -253,11 +172,12 @@ KRATER_FORCE_INLINE void from_the_end(Pack (&X)[Dim][Dim]) {
 }
 
 /// f - I of the step over tensor axes into the local record; on a fixed reference F goes on to the
-/// end of the step. `Ended`: the points have moved already (usf). A lone point does not strain.
+/// end of the step. `Ended`: the points have moved already (usf). Lone points: close_lone().
 /// Returns tr L.
 template <class Frame, class Configuration, bool Ended>
 KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums<Frame::dim>& n,
-                                        Mask lone, double dt, int g) {
+                                        Mask lone, const SweepSettings& s, int g) {
+  const double dt = s.dt;
   constexpr int D = Frame::dim;
   Pack L[D][D];
   for (int i = 0; i < D; ++i)
@@ -273,12 +193,14 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
       for (int a = 0; a < D; ++a)
         view.map.set(g, D * i + a, fma(Pack(dt), n.G[a][i], view.map(g, D * i + a)));
   }
-  Pack trace = 0.0;
+  Pack trace = 0.0, hoop = 0.0;
+  if constexpr (Frame::hoop) hoop = n.V[0] / view.position(g, 0);
   if constexpr (D == 2)
     for (int k = 0; k < 9; ++k) view.step_gradient.set(g, k, Pack(0.0));
+  if (any(lone)) close_lone<Frame>(view, lone, hoop, s, g, L);
   Pack step[D][D];
   for (int i = 0; i < D; ++i)
-    for (int a = 0; a < D; ++a) step[i][a] = dt * (L[i][a] = select(lone, Pack(0.0), L[i][a]));
+    for (int a = 0; a < D; ++a) step[i][a] = dt * L[i][a];
   if constexpr (Ended) from_the_end<D>(step);
   for (int i = 0; i < D; ++i) {
     for (int a = 0; a < D; ++a)
@@ -286,8 +208,7 @@ KRATER_FORCE_INLINE Pack store_gradient(const GatherViews& view, const PointSums
     trace += Ended ? step[i][i] * (1 / dt) : L[i][i];
   }
   if constexpr (Frame::hoop) {
-    const Pack hoop = n.V[0] / view.position(g, 0),
-               change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
+    const Pack change = Ended ? dt * hoop / (1.0 - dt * hoop) : dt * hoop;
     view.step_gradient.set(g, 4, change);
     trace += Ended ? change * (1 / dt) : hoop;
   }

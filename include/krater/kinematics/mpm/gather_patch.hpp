@@ -89,7 +89,7 @@ void gather_nodes(GatherPass& pass) {
       sums.owes = sums.owes | (view.carried(g) < Pack(0.0));
     }
     if constexpr (T::strain) {
-      trace = store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s.dt, g);
+      trace = store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s, g);
       view.extra_dilatation.set(g, trace);  // tr L for now, see average_dilatation()
       if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
     }
