@@ -23,7 +23,7 @@ from scene_support import KRATER, ROOT, Folder, check, command, environment, fin
 os.environ["KRATER"] = KRATER
 sys.path.insert(0, str(ROOT / "tools" / "krater_study"))
 import command as study_command  # noqa: E402
-from members import Member, Row  # noqa: E402
+from members import Member, Row, member  # noqa: E402
 from refinement import Convergence  # noqa: E402
 from search import BallisticLimit  # noqa: E402
 
@@ -136,6 +136,18 @@ def resumed():
     check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
 
 
+def names():
+    """A name is where results lie: no two members may share one, however alike they are told."""
+    long = "{lagrangian_mesh: {failure: {action: erode, when: {plastic_strain: 1.0, jacobian: 0.05}}}}"
+    both = [(first, second) for first in ("mpm", long) for second in ("mpm", long)]
+    values = ([{"bodies.a.kinematics": first, "bodies.b.kinematics": second} for first, second in both] +
+              [{"x.a": text} for text in ("[1, 0]", "[10]", "{p: 10}", "10", "1 0 mm", long + " ", "")])
+    told = [member(one).name for one in values]
+    check(len(set(told)) == len(values) and max(len(name) for name in told) <= 100, "each member has its own name", told)
+    check(member({"grid.cell": "0.381 mm"}).name == "cell=0.381mm" and member({}).name == "as_it_is",
+          "that tells its values where it can")
+
+
 def failing_member():
     write("limited.yaml", "study: sweep\nscene: plate.yaml\nmeasures: [velocity]\n"
           "vary: {time.energy_error: [off, 1e-12, 0.2]}\n")
@@ -165,7 +177,7 @@ def null_in_some():
     done = study("some", f"study: sweep\nscene: plate.yaml\nmeasures: [velocity, gone]\n{some}\n")
     values = [row["gone"] for row in answer("some")["members"]]
     check(done.returncode == 0 and values[0] is None and values[1] > 0, "the body is there in one of two", values)
-    check(re.search(r"gone has no value in 1 of 2 members \(velocity=0-1kms\): they are left out", done.stdout),
+    check(re.search(r"gone has no value in 1 of 2 members \(velocity=0-1kms_[0-9a-f]{8}\): they are left out", done.stdout),
           "what is left out is said", done.stdout)
     rows = [row_of_a_run(cell, value) for cell, value in ((0.004, 1.0), (0.002, None), (0.001, 1.1))]
     kind = Convergence.__new__(Convergence)
@@ -337,6 +349,7 @@ def examples():
 with Folder():
     write("plate.yaml", SCENE)
     write("shot.yaml", SHOT)
+    names()
     files_of_a_study()
     resumed()
     failing_member()

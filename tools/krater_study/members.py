@@ -11,6 +11,7 @@ later.
 
 import ctypes
 import dataclasses
+import hashlib
 import json
 import os
 import re
@@ -25,6 +26,7 @@ from study_file import InputError, SECONDS
 KRATER = os.environ.get("KRATER", "krater")
 LOOK = 0.01  # between looks at the children [s]
 LEAST = 0.1  # of a run, whatever it computes [s]
+LONGEST_NAME = 100  # of a member, which is a folder's
 MEMORY_SHARE = 0.8  # of what is free, that members side by side may take
 BYTES = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
 ESTIMATE = re.compile(r"^estimate: .*?([\d.e+]+) (\w?B) of memory, ([\d.e+]+) (\w+) on one core", re.M)
@@ -70,12 +72,23 @@ class Row:
         return self.summary.get("cell")
 
 
+def name_of(values):
+    """Tells the values: cell=0.381mm. Where it does not tell all of them, for two keys end alike, signs are left out or
+    it would be too long for a folder, it ends with a digest of them: a name is where results are kept, and two members
+    with one name would be given one result."""
+    keys = [path.rsplit(".", 1)[-1] for path in values]
+    words = [re.sub(r"[^A-Za-z0-9.+-]", "", text) for text in values.values()]
+    name = ",".join(f"{key}={word}" for key, word in zip(keys, words))
+    # Two values of a key that differ by a slash would not have the same dimension.
+    whole = all(word == text.translate(str.maketrans("", "", " /")) for word, text in zip(words, values.values()))
+    if whole and len(set(keys)) == len(keys) and len(name) <= LONGEST_NAME:
+        return name or "as_it_is"
+    told = hashlib.sha256(repr(sorted(values.items())).encode()).hexdigest()[:8]
+    return f"{name[:LONGEST_NAME - len(told) - 1]}_{told}"
+
+
 def member(values, extra=()):
-    """A member whose name tells its values: cell=0.381mm."""
-    name = ",".join(f"{path.rsplit('.', 1)[-1]}={re.sub(r'[^A-Za-z0-9.+-]', '', text)}"
-                    for path, text in values.items())
-    return Member(name[:100] or "as_it_is", [*extra, *(f"{path}={text}" for path, text in values.items())],
-                  dict(values))
+    return Member(name_of(values), [*extra, *(f"{path}={text}" for path, text in values.items())], dict(values))
 
 
 def die_with_parent():
