@@ -31,19 +31,10 @@ double weight_at(const Carrier& q, int dim, std::size_t n) {
 }
 
 template <class Visit>
-void MeshContact::for_each_meeting(const Carrier& q, const Visit& visit) {
-  constexpr double kAway = -0.5;  // N . n of what looks away
-  const double away = kAway * length_of(q.area);
-  for (std::size_t n = 0; n < reached(); ++n) {
-    const auto node = static_cast<std::size_t>(q.at[n].node);
-    for (std::int32_t k = first_meeting_[node]; k < first_meeting_[node + 1]; ++k) {
-      Meeting& m = meetings_[static_cast<std::size_t>(k)];
-      for (std::size_t s = 0; s < 2; ++s) {
-        if (m.side[s].body != q.body) continue;
-        const double across = (s == 0 ? 1 : -1) * dot(reflected(q.area, q.at[n].flips), m.normal);
-        if (across >= away) visit(m, m.side[s], weight_at(q, dim_, n), across, q.at[n].flips);
-      }
-    }
+void MeshContact::for_each_link(const Carrier& q, const Visit& visit) {
+  for (std::size_t k = q.first_link; k < q.last_link; ++k) {
+    const Link& link = links_[k];
+    visit(link, meetings_[link.meeting].side[link.side]);
   }
 }
 

@@ -121,7 +121,7 @@ void place_nodes(const std::vector<double>& volumes, MeshStep::Elements& body) {
   const ElementBody& made_of = body.made_of;
   body.node_count = made_of.mesh.nodes.size();
   body.nodes.reserve(kNode * body.node_count);
-  body.changes.reserve(kChange * body.node_count + kNode);  // read eight at a time
+  body.changes.reserve(kChange * body.node_count);
   for (std::size_t n = 0; n < body.node_count; ++n) {
     double* node = body.node(n);
     for (std::size_t a = 0; a < static_cast<std::size_t>(made_of.mesh.dimension); ++a) {

@@ -187,11 +187,11 @@ struct NodeBox {
   }
   std::size_t length(std::size_t a) const { return static_cast<std::size_t>(high[a] - low[a] + 1); }
   std::size_t size() const { return length(0) * length(1) * length(2); }
-  std::int32_t& at(const std::array<int, 3>& index) {
+  std::size_t place(const std::array<int, 3>& index) const {
     std::size_t n = 0;
     for (std::size_t a = 0; a < 3; ++a)
       n = n * length(a) + static_cast<std::size_t>(index[a] - low[a]);
-    return number[n];
+    return n;
   }
 };
 
@@ -211,8 +211,17 @@ void MeshContact::number_nodes() {
         }
   };
   NodeBox box;
-  for (Carrier& q : carriers_)
-    visit_nodes(q, [&](Reached&, const Index& index) { box.hold(index); });
+  for (const Carrier& q : carriers_)
+    for (const int corner : {0, static_cast<int>(kSupport) - 1}) {
+      Index seen{q.base[0] + corner, q.base[1] + corner,
+                 dim_ == 3 ? q.base[2] + corner : q.base[2]};
+      Index at_most = seen;  // from across a plane of symmetry images reach back to the plane
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
+        at_most[a] = std::clamp(seen[a], 1, geometry_.cells[a] + 1);
+      const bool mirrored = inside(seen).flips != 0;
+      box.hold(seen);
+      if (mirrored) box.hold(at_most);
+    }
   places_.clear();
   if (box.size() > kRoom * carriers_.size()) {
     for (Carrier& q : carriers_)
@@ -228,16 +237,22 @@ void MeshContact::number_nodes() {
   }
   box.number.assign(box.size(), -1);
   for (Carrier& q : carriers_)
-    visit_nodes(q, [&](Reached&, const Index& index) { box.at(index) = 0; });
+    visit_nodes(q, [&](Reached& at, const Index& index) {
+      const std::size_t place = box.place(index);
+      box.number[place] = 0;
+      at.node = static_cast<std::int32_t>(place);
+    });
+  std::size_t place = 0;
   for (int i = box.low[0]; i <= box.high[0]; ++i)
     for (int j = box.low[1]; j <= box.high[1]; ++j)
       for (int k = box.low[2]; k <= box.high[2]; ++k)
-        if (std::int32_t& number = box.at({i, j, k}); number == 0) {
+        if (std::int32_t& number = box.number[place++]; number == 0) {
           number = static_cast<std::int32_t>(places_.size());
           places_.push_back({i, j, k});
         }
   for (Carrier& q : carriers_)
-    visit_nodes(q, [&](Reached& at, const Index& index) { at.node = box.at(index); });
+    for (std::size_t n = 0; n < reached(); ++n)
+      q.at[n].node = box.number[static_cast<std::size_t>(q.at[n].node)];
 }
 
 }  // namespace krater

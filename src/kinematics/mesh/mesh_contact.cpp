@@ -57,6 +57,7 @@ void MeshContact::begin() {
   number_nodes();
   find_meetings();
   if (meetings_.empty()) return;
+  link_carriers();
   weigh();
   for (const Meeting& m : meetings_)
     if (m.rigid) rigid_part(m.side[1].of_scene);
@@ -90,7 +91,7 @@ void MeshContact::list_touched() {
   std::vector<std::vector<bool>> seen;
   for (const MeshNodes& b : bodies_) seen.emplace_back(b.count, false);
   for (const Carrier& q : carriers_)
-    for (std::size_t I = 0; I < q.corners; ++I) {
+    for (std::size_t I = 0; I < q.corners && q.first_link < q.last_link; ++I) {
       const auto n = static_cast<std::size_t>(q.nodes[I]);
       if (!seen[q.body][n]) touched_.push_back({q.body, q.nodes[I], {}});
       seen[q.body][n] = true;
@@ -157,6 +158,7 @@ void MeshContact::pass(double dt) {
   if (meetings_.empty()) return;
   for (Meeting& m : meetings_) m.side[0].momentum = m.side[1].momentum = {};
   for (const Carrier& q : carriers_) {
+    if (q.first_link == q.last_link) continue;
     Triple p{};
     for (std::size_t I = 0; I < q.corners; ++I) {
       const auto n = static_cast<std::size_t>(q.nodes[I]);
@@ -165,8 +167,8 @@ void MeshContact::pass(double dt) {
       for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
         p[a] += q.share[I] * (v[a] + change[a]);
     }
-    for_each_meeting(q, [&](Meeting&, Side& side, double S, double, unsigned flips) {
-      add_to(side.momentum, S, reflected(p, flips));
+    for_each_link(q, [&](const Link& link, Side& side) {
+      add_to(side.momentum, link.S, reflected(p, link.flips));
     });
   }
   for (Meeting& m : meetings_)  // the image has the opposite across the plane
@@ -176,9 +178,10 @@ void MeshContact::pass(double dt) {
   for (Meeting& m : meetings_) exchange(m, dt);
   hand_over();
   for (const Carrier& q : carriers_) {
+    if (q.first_link == q.last_link) continue;
     Triple dv{};
-    for_each_meeting(q, [&](Meeting&, const Side& side, double S, double, unsigned flips) {
-      add_to(dv, S, reflected(side.change, flips));
+    for_each_link(q, [&](const Link& link, const Side& side) {
+      add_to(dv, link.S, reflected(side.change, link.flips));
     });
     for (std::size_t I = 0; I < q.corners; ++I) {
       const auto n = static_cast<std::size_t>(q.nodes[I]);

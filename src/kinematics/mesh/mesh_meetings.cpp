@@ -175,23 +175,49 @@ Triple MeshContact::place_of_node(const Index& index) const {
   return x;
 }
 
+/// What looks away from a meeting is no part of it.
+void MeshContact::link_carriers() {
+  constexpr double kAway = -0.5;  // N . n
+  links_.clear();
+  for (Carrier& q : carriers_) {
+    q.first_link = links_.size();
+    const double away = kAway * length_of(q.area);
+    for (std::size_t n = 0; n < reached(); ++n) {
+      const auto node = static_cast<std::size_t>(q.at[n].node);
+      for (std::int32_t k = first_meeting_[node]; k < first_meeting_[node + 1]; ++k) {
+        const Meeting& m = meetings_[static_cast<std::size_t>(k)];
+        for (std::uint8_t s = 0; s < 2; ++s) {
+          if (m.side[s].body != q.body) continue;
+          const double across = (s == 0 ? 1 : -1) * dot(reflected(q.area, q.at[n].flips), m.normal);
+          if (across >= away)
+            links_.push_back(
+                {static_cast<std::uint32_t>(k), s, q.at[n].flips, weight_at(q, dim_, n), across});
+        }
+      }
+    }
+    q.last_link = links_.size();
+  }
+}
+
 /// Masses and places of the sides, and their gaps.
 void MeshContact::weigh() {
   for (const Carrier& q : carriers_) {
     double mass = 0;
     for (std::size_t I = 0; I < q.corners; ++I) mass += q.share[I];
     const double squared = dot(q.area, q.area);
-    for_each_meeting(q, [&](Meeting&, Side& side, double S, double across, unsigned flips) {
-      side.mass += S * mass;
-      const double look = q.corners == 1 ? 1 : across > 0 ? across * across / squared : 0;
-      side.weight += S * mass * look;
+    for_each_link(q, [&](const Link& link, Side& side) {
+      side.mass += link.S * mass;
+      const double across = link.across, look = q.corners == 1 ? 1
+                                                : across > 0   ? across * across / squared
+                                                               : 0;
+      side.weight += link.S * mass * look;
       Triple x = q.x;
-      for (std::size_t a = 0; flips >> a != 0; ++a)
-        if ((flips >> a & 1U) != 0) {
+      for (std::size_t a = 0; link.flips >> a != 0; ++a)
+        if ((link.flips >> a & 1U) != 0) {
           const bool low = x[a] < 0.5 * (geometry_.min[a] + geometry_.upper(static_cast<int>(a)));
           x[a] = 2 * (low ? geometry_.min[a] : geometry_.upper(static_cast<int>(a))) - x[a];
         }
-      add_to(side.place, S * mass * look, x);
+      add_to(side.place, link.S * mass * look, x);
     });
   }
   for (Meeting& m : meetings_) {

@@ -7,6 +7,7 @@
 #include "kinematics/mesh/elements.hpp"
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/mesh/mesh_loads.hpp"
+#include "krater/kinematics/sweep_account.hpp"
 
 namespace krater {
 
@@ -101,29 +102,20 @@ void MeshStep::find_limit(const std::vector<ElementResult>& results) {
     const ElementResult& r = results[c];
     if (r.fault.kind != FaultKind::none)
       throw ElementFault{static_cast<int>(chunks_[c].body), r.fault};
-    if (r.max_rate > limit_.rate) {
-      const Elements& body = *bodies_[chunks_[c].body];
-      limit_ = {r.max_rate, r.limiter, body.made_of.body,
-                body.elements.at(body.columns.id, r.limiting)};
-    }
+    const Elements& body = *bodies_[chunks_[c].body];
+    note_limit(r, body.made_of.body, body.elements, body.columns.id, limit_);
   }
 }
 
 void MeshStep::book(const std::vector<ElementResult>& results, const Standing& others) {
-  audit_.internal = others.internal;
-  audit_.unfelt = others.unfelt;
-  double law_work = 0;
+  SweepAccount account{audit_, others};
   for (std::size_t c = 0; c < results.size(); ++c) {
     const ElementResult& r = results[c];
-    audit_.internal += r.internal + r.hourglass;
-    audit_.book_events(r.ledger);
+    account.add(r, r.internal + r.hourglass, r.hourglass - r.hourglass_before,
+                bodies_[chunks_[c].body]->made_of.barotropic);
     audit_.new_references += r.renewed;
-    if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
-    audit_.unfelt += r.internal + r.hourglass;
-    law_work += r.ledger.barotropic_work + (r.hourglass - r.hourglass_before);
   }
-  audit_.book_laws(law_work, 0.5, others.law_lead);  // they are half a step ahead of e
-  audit_.find_unfelt();
+  account.close();
 }
 
 void MeshStep::find_forces() {
@@ -273,17 +265,24 @@ Standing MeshStep::move(double dt, const Standing& others) {
     Elements& body = *bodies_[chunk.body];
     kernels_.strain(data(body), scratch(), dt, chunk.first, chunk.last, results[c]);
   });
-  over_nodes([&](Elements& b, std::size_t first, std::size_t last, WallSums&) {
-    for (std::size_t n = first; n < last; ++n)
-      for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) {
-        b.node(n)[4 + a] += b.change(n)[a];
-        b.node(n)[a] += dt * b.node(n)[4 + a];
+  audit_.kinetic = others.kinetic;
+  for (auto& b : bodies_) {
+    std::vector<double> kinetic((b->node_count + kChunkNodes - 1) / kChunkNodes);
+    for_each(kinetic.size(), [&](std::size_t c) {
+      const std::size_t last = std::min((c + 1) * kChunkNodes, b->node_count);
+      for (std::size_t n = c * kChunkNodes; n < last; ++n) {
+        double* node = b->node(n);
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) {
+          node[4 + a] += b->change(n)[a];
+          node[a] += dt * node[4 + a];
+          kinetic[c] += 0.5 * node[3] * node[4 + a] * node[4 + a];
+        }
       }
-  });
+    });
+    for (const double energy : kinetic) audit_.kinetic += energy;
+  }
   find_limit(results);  // or the fault
   book(results, others);
-  audit_.kinetic = others.kinetic;
-  for (int b = 0; b < set_count(); ++b) audit_.kinetic += totals(b).kinetic;
   if (erode()) find_forces();  // and the limit without what is gone
   audit_.contact_pairs = others.contact_pairs;
   return {audit_.kinetic, audit_.internal, audit_.unfelt, audit_.law_lead, audit_.contact_pairs};

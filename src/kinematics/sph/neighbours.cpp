@@ -177,8 +177,8 @@ void Neighbours::sort_items(int count) {
 }
 
 /// Ranges of sorted items in the rows of cells about a cell.
-std::array<std::array<std::uint32_t, 2>, 9> Neighbours::near(const Cell& cell) const {
-  std::array<std::array<std::uint32_t, 2>, 9> out{};
+Neighbours::Ranges Neighbours::near_ranges(const Cell& cell) const {
+  Ranges out{};
   std::size_t n = 0;
   const auto by_key = [](const Cell& c, Key key) { return c.key < key; };
   for (int z = dim_ == 3 ? -1 : 0; z <= (dim_ == 3 ? 1 : 0); ++z)
@@ -191,44 +191,58 @@ std::array<std::array<std::uint32_t, 2>, 9> Neighbours::near(const Cell& cell) c
   return out;
 }
 
+/// Into `out` what is within the radius of particle i, of some ranges of sorted items; how many.
+/// Every item is written, and counted if it is near: of six that are looked at one is, in no order
+/// that a processor could foretell.
+std::size_t Neighbours::list_near(int i, const Ranges& ranges,
+                                  std::vector<std::int32_t>& out) const {
+  const double most = radius_ * radius_;
+  const double* x = places_.data() + 3 * static_cast<std::size_t>(i);
+  std::size_t all = 0, count = 0;
+  for (const auto& [from, end] : ranges) all += end - from;
+  if (out.size() < all + 1) out.resize(all + 1);
+  for (const auto& [from, end] : ranges)
+    for (std::uint32_t k = from; k < end; ++k) {
+      const double* y = sorted_.data() + 3 * static_cast<std::size_t>(k);
+      const double a = x[0] - y[0], b = x[1] - y[1], c = x[2] - y[2];
+      const auto item = static_cast<std::int32_t>(order_[k]);
+      out[count] = item;
+      count += static_cast<std::size_t>(a * a + b * b + c * c < most) &
+               static_cast<std::size_t>(item != i);
+    }
+  return count;
+}
+
 void Neighbours::list_groups(std::size_t chunk, int count) {
   std::vector<std::int32_t>& to = storage_[chunk];
   const int groups = (count + kLanes - 1) / kLanes, first = static_cast<int>(chunk) * kChunkGroups,
             last = std::min(first + kChunkGroups, groups);
-  std::array<std::vector<std::int32_t>, kLanes> lanes;
+  std::array<std::vector<std::int32_t>, kLanes> lanes;  // of which `near[lane]` count
+  std::array<std::size_t, kLanes> near{};
   std::vector<std::size_t> starts;
   std::uint32_t cell = static_cast<std::uint32_t>(-1);
-  std::array<std::array<std::uint32_t, 2>, 9> ranges{};
-  const double most = radius_ * radius_;
+  Ranges ranges{};
   to.clear();
   for (int g = first; g < last; ++g) {
     std::size_t rows = 0;
-    for (int l = 0; l < kLanes; ++l) {
-      std::vector<std::int32_t>& lane = lanes[static_cast<std::size_t>(l)];
-      lane.clear();
-      const int i = kLanes * g + l;
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      near[l] = 0;
+      const int i = kLanes * g + static_cast<int>(l);
       if (i >= count) continue;
       if (cell_of_[static_cast<std::size_t>(i)] != cell) {
         cell = cell_of_[static_cast<std::size_t>(i)];
-        ranges = near(cells_[cell]);
+        ranges = near_ranges(cells_[cell]);
       }
-      const double* x = places_.data() + 3 * i;
-      for (const auto& [from, end] : ranges)
-        for (std::uint32_t k = from; k < end; ++k) {
-          const double* y = sorted_.data() + 3 * static_cast<std::size_t>(k);
-          const double a = x[0] - y[0], b = x[1] - y[1], c = x[2] - y[2];
-          const auto item = static_cast<std::int32_t>(order_[k]);
-          if (a * a + b * b + c * c < most && item != i) lane.push_back(item);
-        }
-      rows = std::max(rows, lane.size());
+      near[l] = list_near(i, ranges, lanes[l]);
+      rows = std::max(rows, near[l]);
     }
-    starts.push_back(to.size());
+    std::size_t at = to.size();
+    starts.push_back(at);
     rows_[static_cast<std::size_t>(g)].count = static_cast<int>(rows);
+    to.resize(at + rows * kLanes);
     for (std::size_t k = 0; k < rows; ++k)
-      for (int l = 0; l < kLanes; ++l) {
-        const auto& lane = lanes[static_cast<std::size_t>(l)];
-        to.push_back(k < lane.size() ? lane[k] : kLanes * g + l);
-      }
+      for (std::size_t l = 0; l < kLanes; ++l)
+        to[at++] = k < near[l] ? lanes[l][k] : kLanes * g + static_cast<int>(l);
   }
   for (int g = first; g < last; ++g)
     rows_[static_cast<std::size_t>(g)].rows =

@@ -61,7 +61,7 @@ void make_room(int dim, SphStep::Particles& body) {
   body.force.reserve(3 * groups * kLanes);
   body.held.reserve(4 * groups * kLanes);
   body.remembered.reserve(2 * groups * kLanes);
-  body.changes.reserve(kSphChange * groups * kLanes + kLanes);  // read eight at a time
+  body.changes.reserve(kSphChange * groups * kLanes);
   body.reference.reserve(3 * groups * kLanes);
   body.reference_density.reserve(groups * kLanes);
   body.deformation.reserve(body.fixed() ? 9 * groups * kLanes : 0);

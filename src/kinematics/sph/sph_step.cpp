@@ -6,6 +6,7 @@
 #include "kinematics/sph/particles.hpp"
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/sph/sph_loads.hpp"
+#include "krater/kinematics/sweep_account.hpp"
 
 namespace krater {
 
@@ -61,18 +62,26 @@ void SphStep::start() {
   find_forces();
 }
 
-double SphStep::kinetic_energy(int s) const {
-  const Particles& b = *bodies_[static_cast<std::size_t>(s)];
+namespace {
+
+double kinetic_of(const SphStep::Particles& b, int dim, int first, int last) {
   double sum = 0;
-  for (int i = 0; i < b.points.count(); ++i) {
+  for (int i = first; i < last; ++i) {
     double squares = 0;
-    for (int a = 0; a < dim_; ++a) {
+    for (int a = 0; a < dim; ++a) {
       const double v = b.points.at(b.columns.velocity + kLanes * a, i);
       squares += v * v;
     }
     sum += 0.5 * b.points.at(b.columns.mass, i) * squares;
   }
   return sum;
+}
+
+}  // namespace
+
+double SphStep::kinetic_energy(int s) const {
+  const Particles& b = *bodies_[static_cast<std::size_t>(s)];
+  return kinetic_of(b, dim_, 0, b.points.count());
 }
 
 double SphStep::internal_energy(int s) const {
@@ -89,30 +98,25 @@ void SphStep::find_limit(const std::vector<SphResult>& results) {
     const SphResult& r = results[c];
     if (r.fault.kind != FaultKind::none)
       throw ParticleFault{static_cast<int>(chunks_[c].body), r.fault};
-    if (!(r.max_rate > limit_.rate)) continue;
     const Particles& body = *bodies_[chunks_[c].body];
-    limit_ = {r.max_rate, r.limiter, body.made_of.body,
-              body.points.at(body.columns.id, r.limiting)};
+    note_limit(r, body.made_of.body, body.points, body.columns.id, limit_);
   }
 }
 
 void SphStep::book(const std::vector<SphResult>& results, const Standing& others) {
-  audit_.internal = others.internal;
-  audit_.unfelt = others.unfelt;
-  double law_work = 0;
+  SweepAccount account{audit_, others};
+  audit_.kinetic = others.kinetic;
   for (std::size_t c = 0; c < results.size(); ++c) {
     const SphResult& r = results[c];
-    audit_.internal += r.internal;
+    account.add(r, r.internal, 0, bodies_[chunks_[c].body]->made_of.barotropic);
     audit_.stabilisation += r.held;
-    audit_.book_events(r.ledger);
-    if (!bodies_[chunks_[c].body]->made_of.barotropic) continue;
-    audit_.unfelt += r.internal;
-    law_work += r.ledger.barotropic_work;
   }
-  audit_.book_laws(law_work, 0.5, others.law_lead);  // they are half a step ahead of e
-  audit_.find_unfelt();
-  audit_.kinetic = others.kinetic;
-  for (int s = 0; s < set_count(); ++s) audit_.kinetic += kinetic_energy(s);
+  account.close();
+  std::vector<double> kinetic(chunks_.size());
+  over_groups([&](Particles& b, const SphData&, int first, int last, std::size_t c) {
+    kinetic[c] = kinetic_of(b, dim_, kLanes * first, std::min(kLanes * last, b.points.count()));
+  });
+  for (const double energy : kinetic) audit_.kinetic += energy;
 }
 
 /// Lists are made where the records of motion are, and records have room for the images.

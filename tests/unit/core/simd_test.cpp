@@ -11,6 +11,8 @@
 #include <limits>
 #include <random>
 
+#include "krater/core/simd_rows.hpp"
+
 using krater::Mask;
 using krater::Pack;
 
@@ -201,6 +203,23 @@ TEST_CASE("transpose8: in memory and in registers") {
       CHECK(out[8 * i + j] == 8 * j + i);
       CHECK(krater::get(r[i], j) == 8 * j + i);
     }
+}
+
+TEST_CASE("load_columns: four columns of rows anywhere") {
+  alignas(64) double in[8 * 24];
+  for (int i = 0; i < 8 * 24; ++i) in[i] = i;
+  const int place[8] = {16, 3, 7, 0, 9, 1, 23, 12};
+  const auto row = [&](int l) { return in + 8 * place[l]; };
+  for (const int column : {0, 4}) {
+    Pack out[4];
+    krater::load_columns(row, column, out);
+    for (int c = 0; c < 4; ++c)
+      for (int l = 0; l < 8; ++l) CHECK(krater::get(out[c], l) == 8 * place[l] + column + c);
+  }
+  Pack all[8];
+  krater::load_rows(row, all);
+  for (int c = 0; c < 8; ++c)
+    for (int l = 0; l < 8; ++l) CHECK(krater::get(all[c], l) == 8 * place[l] + c);
 }
 
 TEST_CASE("split_exponent and scale_pow2: exact, denormals included") {

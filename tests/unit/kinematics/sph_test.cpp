@@ -20,6 +20,9 @@ template <SphKernel Kind>
 void check_weight(int dimension) {
   const double h = 0.7;
   const WeightScale scale = weight_scale<Kind>(dimension, h);
+  const auto slope_at = [&](double r) {
+    return weight_slope<Kind>(scale, r * r, inverse_distance(r * r));
+  };
   double content = 0, worst = 0;
   const int steps = 4000;
   for (int k = 0; k < steps; ++k) {
@@ -28,12 +31,14 @@ void check_weight(int dimension) {
     content += w * (dimension == 3 ? 4 * M_PI * r * r : 2 * M_PI * r) * dr;
     const double slope =
         (weight<Kind>(scale, (r + d) * (r + d)) - weight<Kind>(scale, (r - d) * (r - d))) / (2 * d);
-    worst = std::max(worst, std::abs(slope / r - weight_slope<Kind>(scale, r * r)));
+    worst = std::max(worst, std::abs(slope / r - slope_at(r)));
   }
   CHECK(content == doctest::Approx(1).epsilon(1e-6));
-  CHECK(worst < 1e-3 * std::abs(weight_slope<Kind>(scale, h * h)));
+  CHECK(worst < 1e-3 * std::abs(slope_at(h)));
   CHECK(weight<Kind>(scale, 4 * h * h) == 0);
-  CHECK(weight_slope<Kind>(scale, 4 * h * h) == 0);
+  CHECK(std::abs(slope_at(2 * h)) < 1e-15 * std::abs(slope_at(h)));
+  CHECK(slope_at(2.5 * h) == 0);
+  CHECK(std::isfinite(slope_at(0)));
 }
 
 SymAxes<double, 3> diagonal(double a, double b, double c) { return {{a, b, c, 0, 0, 0}}; }

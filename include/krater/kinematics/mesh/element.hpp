@@ -153,6 +153,19 @@ KRATER_FORCE_INLINE void add_stress_force(const ElementGeometry<Real, Frame>& e,
     }
 }
 
+/// sum_I p_I/q_I of positive q with one division.
+template <class Real, int N>
+KRATER_FORCE_INLINE Real sum_of_quotients(Real (&p)[N], Real (&q)[N]) {
+#pragma GCC unroll 3
+  for (int half = N / 2; half > 0; half /= 2)
+#pragma GCC unroll 4
+    for (int I = 0; I < half; ++I) {
+      p[I] = fma(p[I], q[I + half], p[I + half] * q[I]);
+      q[I] = q[I] * q[I + half];
+    }
+  return p[0] / q[0];
+}
+
 /// Length whose quotient by the wave speed is the greatest stable step of the element alone,
 /// 2/omega with omega^2 <= c^2/V sum_I (|b_I|^2 + t_I^2 + 2 max(0, b_rI t_I))/w_I, w_I = m_I/rho:
 /// exact for a fluid, and a bound for the mesh, as the eigenvalues of its elements bound its own.
@@ -160,15 +173,15 @@ template <class Frame, class Real>
 KRATER_FORCE_INLINE Real stable_length(const ElementGeometry<Real, Frame>& e,
                                        const Real (&share)[corner_nodes(Frame::dim)], Real rho) {
   constexpr int D = Frame::dim;
-  Real sum = Real(0.0);
+  Real squares[corner_nodes(D)], mass[corner_nodes(D)];
   for (int I = 0; I < corner_nodes(D); ++I) {
-    Real squares = Real(0.0);
-    for (int a = 0; a < D; ++a) squares = fma(e.b[I][a], e.b[I][a], squares);
+    mass[I] = share[I];
+    squares[I] = Real(0.0);
+    for (int a = 0; a < D; ++a) squares[I] = fma(e.b[I][a], e.b[I][a], squares[I]);
     if constexpr (Frame::hoop)
-      squares = fma(e.t[I], e.t[I] + 2.0 * max(Real(0.0), e.b[I][0]), squares);
-    sum = sum + squares / share[I];
+      squares[I] = fma(e.t[I], e.t[I] + 2.0 * max(Real(0.0), e.b[I][0]), squares[I]);
   }
-  return 2.0 * sqrt(e.volume / (rho * sum));
+  return 2.0 * sqrt(e.volume / (rho * sum_of_quotients(squares, mass)));
 }
 
 }  // namespace krater::inline KRATER_ISA

@@ -10,8 +10,10 @@
 ///   power            - sum f . v of what holds the hourglass, for v the middle of the step
 ///   forces           of stress and hourglass at the corners
 ///   begin, end_modes what the hourglass modes move by in a step, along the element's directions
+///   keep, take       itself, and what its forces need of the corners, over the stages
 #pragma once
 
+#include "krater/core/simd_rows.hpp"
 #include "krater/core/stability.hpp"
 #include "krater/kinematics/mesh/hexahedron.hpp"
 #include "krater/kinematics/mesh/mesh_kernels.hpp"
@@ -32,16 +34,14 @@ KRATER_FORCE_INLINE void load_corners(const ElementData& d, int g, bool change, 
   for (int I = 0; I < N; ++I) {
     const std::int32_t* lanes = d.corners + (N * g + I) * kLanes;
     Pack r[8];
-    for (int l = 0; l < kLanes; ++l) r[l] = load(d.nodes + 8 * lanes[l]);
-    transpose8(r);
+    load_rows([&](int l) { return d.nodes + 8 * lanes[l]; }, r);
     for (int a = 0; a < Dim; ++a) {
       out.x[I][a] = r[a];
       out.v[I][a] = r[4 + a];
     }
     out.heat[I] = r[7];
     if (!change) continue;
-    for (int l = 0; l < kLanes; ++l) r[l] = loadu(d.changes + 4 * lanes[l]);
-    transpose8(r);
+    load_columns([&](int l) { return d.changes + 4 * lanes[l]; }, 0, r);
     for (int a = 0; a < Dim; ++a) out.dv[I][a] = r[a];
   }
 }
@@ -131,6 +131,23 @@ struct ByCorners {
     double* share = to + D * N * kLanes;
     store(share, select(far, e.volume / now.volume, load(share)));
     return far;
+  }
+  template <Holding Kind>
+  KRATER_FORCE_INLINE void keep(const Corners<D>& at, double* kept) const {
+    for (int I = 0; I < N; ++I)
+      for (int i = 0; i < D; ++i) {
+        store(kept + (D * I + i) * kLanes, at.x[I][i]);
+        store(kept + (D * (N + I) + i) * kLanes, at.v[I][i]);
+      }
+  }
+  template <Holding Kind>
+  KRATER_FORCE_INLINE void take(const ElementData& d, int g, const double* kept, Corners<D>& at) {
+    for (int I = 0; I < N; ++I)
+      for (int i = 0; i < D; ++i) {
+        at.x[I][i] = load(kept + (D * I + i) * kLanes);
+        at.v[I][i] = load(kept + (D * (N + I) + i) * kLanes);
+      }
+    place(d, g, at.x);
   }
   KRATER_FORCE_INLINE Pack volume() const { return e.volume; }
   KRATER_FORCE_INLINE Pack reference_volume() const { return current ? e.volume : r.start.volume; }
@@ -234,6 +251,45 @@ struct ByModes {
   KRATER_FORCE_INLINE void place_again(const Values& x) {
     find_modes(x, e.a);
     e.find_slopes();
+  }
+  template <Holding Kind>
+  KRATER_FORCE_INLINE void keep(const Corners<3>& at, double* kept) const {
+    double* to = kept;
+    const auto put = [&to](Pack value) {
+      store(to, value);
+      to += kLanes;
+    };
+#pragma GCC unroll 7
+    for (int m = 1; m < 8; ++m)
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        put(e.a[m][i]);
+        if (m < 7) put(e.c[m][i]);
+      }
+    put(e.volume);
+    if constexpr (!keeps(Kind))
+      for (int I = 0; I < 8; ++I)
+        for (int i = 0; i < 3; ++i) put(at.v[I][i]);
+  }
+  template <Holding Kind>
+  KRATER_FORCE_INLINE void take(const ElementData&, int, const double* kept, Corners<3>& at) {
+    const double* from = kept;
+    const auto get = [&from] {
+      const Pack value = load(from);
+      from += kLanes;
+      return value;
+    };
+#pragma GCC unroll 7
+    for (int m = 1; m < 8; ++m)
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        e.a[m][i] = get();
+        if (m < 7) e.c[m][i] = get();
+      }
+    e.volume = get();
+    if constexpr (!keeps(Kind))
+      for (int I = 0; I < 8; ++I)
+        for (int i = 0; i < 3; ++i) at.v[I][i] = get();
   }
   KRATER_FORCE_INLINE Pack volume() const { return e.volume; }
   KRATER_FORCE_INLINE Pack reference_volume() const { return e.volume; }

@@ -166,7 +166,7 @@ struct Hexahedron {
   /// stable_length() of element.hpp.
   KRATER_FORCE_INLINE Real stable_length(const Real (&share)[8], Real rho) const {
     CornerModes<Real> g;
-    Real b[8][3], sum = Real(0.0);
+    Real b[8][3], squares[8], mass[8];
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
 #pragma GCC unroll 6
@@ -175,8 +175,11 @@ struct Hexahedron {
     }
     find_corners(g, b);
 #pragma GCC unroll 8
-    for (int I = 0; I < 8; ++I) sum = sum + dot3(b[I], b[I]) / share[I];
-    return 2.0 * sqrt(volume / (rho * sum));
+    for (int I = 0; I < 8; ++I) {
+      squares[I] = dot3(b[I], b[I]);
+      mass[I] = share[I];
+    }
+    return 2.0 * sqrt(volume / (rho * sum_of_quotients(squares, mass)));
   }
 };
 

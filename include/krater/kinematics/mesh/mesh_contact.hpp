@@ -92,6 +92,13 @@ class MeshContact final : public PassingEncounter {
     Index base;
     std::array<std::array<double, kSupport>, 3> weight;
     std::array<Reached, 27> at;  ///< nodes of the grid, in order of their weights
+    std::size_t first_link, last_link;
+  };
+  /// A carrier's part in a meeting; the same in all passes of a step.
+  struct Link {
+    std::uint32_t meeting;
+    std::uint8_t side, flips;
+    double S, across;  ///< A N . n outwards
   };
   /// A body at a node of the grid.
   struct Presence {
@@ -163,9 +170,10 @@ class MeshContact final : public PassingEncounter {
   void exchange_rigid(Meeting& meeting, double dt);
   void hand_over();
   std::size_t reached() const { return dim_ == 3 ? 27 : 9; }
-  /// visit(meeting, side, S, A N . n outwards, flips) for all that a carrier takes part in.
+  void link_carriers();
+  /// visit(link, side) for all that a carrier takes part in.
   template <class Visit>
-  void for_each_meeting(const Carrier& carrier, const Visit& visit);
+  void for_each_link(const Carrier& carrier, const Visit& visit);
 
   Frame frame_;
   int dim_;
@@ -180,6 +188,7 @@ class MeshContact final : public PassingEncounter {
   std::vector<MeshNodes> bodies_;
   std::vector<int> of_points_;  ///< bodies of points near one of elements
   std::vector<Carrier> carriers_;
+  std::vector<Link> links_;                  ///< carrier by carrier
   std::vector<Index> places_;                ///< nodes of the grid that carriers reach
   std::vector<Presence> present_;            ///< per node of the grid and body
   std::vector<Meeting> meetings_;            ///< in order of nodes

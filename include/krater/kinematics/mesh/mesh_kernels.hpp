@@ -11,9 +11,9 @@
 /// Nodes: x, m, v, heat per mass of the step (8 doubles), and the change of velocity of the step.
 #include <cstdint>
 
-#include "krater/core/batch_types.hpp"
 #include "krater/core/isa_level.hpp"
 #include "krater/kinematics/mesh/options.hpp"
+#include "krater/kinematics/sweep_result.hpp"
 #include "krater/materials/stage.hpp"
 
 namespace krater {
@@ -51,7 +51,7 @@ struct ElementScratch {
   const double* zeros;
 };
 inline constexpr int kElementGroups = 8;  ///< groups that a stage works on at once
-inline constexpr int kKeptPacks = 68;
+inline constexpr int kKeptPacks = 84;
 inline constexpr int kRemembered = 3;
 /// Rows of a reference: places of the corners, and its volume by theirs (placed_element.hpp).
 template <int Dim>
@@ -60,14 +60,9 @@ inline constexpr int kPlaced = (Dim == 3 ? 8 : 4) * Dim + 1;
 template <int Dim>
 inline constexpr int kForceDoubles = Dim == 3 ? 4 : 2;
 
-/// What a sweep over some groups leaves behind; combined in their order.
-struct ElementResult {
-  double internal = 0, hourglass = 0, hourglass_before = 0;  ///< [J]
-  int renewed = 0;                                           ///< references
-  double max_rate = 0;                                       ///< 1/dt at CFL 1 [1/s]
-  int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the element
-  Ledger ledger;
-  Fault fault;
+struct ElementResult : SweepResult {
+  double hourglass = 0, hourglass_before = 0;  ///< [J]
+  int renewed = 0;                             ///< references
 };
 
 class MeshKernels {

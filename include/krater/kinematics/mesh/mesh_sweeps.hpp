@@ -15,6 +15,7 @@
 
 #include "krater/core/lane_math.hpp"
 #include "krater/kinematics/mesh/element_shapes.hpp"
+#include "krater/kinematics/note_rate.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -47,18 +48,6 @@ template <int Dim>
 KRATER_FORCE_INLINE void load_shares(const ElementData& d, int g, Pack (&out)[corner_nodes(Dim)]) {
   for (int I = 0; I < corner_nodes(Dim); ++I)
     out[I] = load(d.shares + (corner_nodes(Dim) * g + I) * kLanes);
-}
-
-KRATER_FORCE_INLINE void note_rate(const ElementData& d, Pack rate, int kind, int g,
-                                   ElementResult& out) {
-  const Pack valid = select(first_lanes(d.count - kLanes * g), rate, Pack(0.0));
-  if (!(hmax(valid) > out.max_rate)) return;
-  for (int l = 0; l < kLanes; ++l)
-    if (get(valid, l) > out.max_rate) {
-      out.max_rate = get(valid, l);
-      out.limiter = kind;
-      out.limiting = kLanes * g + l;
-    }
 }
 
 /// The forces of a group at its corners: per element corner by corner, components and padding.
@@ -105,8 +94,8 @@ KRATER_FORCE_INLINE void find_group_forces(const ElementData& d, const ElementVi
   const Pack c_L_squared = fma(c, c, (4.0 / 3.0) * G / rho);
   const Pack rate = (Qv + sqrt(fma(Qv, Qv, c_L_squared))) / length.stable;
   store(remembered + 2 * kLanes, rate);
-  note_rate(d, rate, 0, g, out);
-  note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
+  note_rate(d.count, rate, 0, g, out);
+  note_rate(d.count, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
 }
 
 template <class Shape>
@@ -139,7 +128,7 @@ void find_forces(const ElementData& d, int first, int last, ElementResult& out) 
 /// What is kept of a group between strain and the end of the stages.
 struct Kept {
   static constexpr int rates = 0, per_a = 12, volume = 15, plastic = 16, squares = 17, lengths = 18,
-                       corners = 20;  // x and v+ of the corners
+                       shape = 20;  // as the shape keeps itself
 };
 
 /// A group's volume before, and which it is, of the body and of those that the stages work on.
@@ -149,7 +138,7 @@ struct GroupPlace {
 };
 
 /// Where the corners are now: exact volume, lengths, and the place and velocity of the whole.
-template <class Shape>
+template <Holding Kind, class Shape>
 KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& w,
                                     const ElementViews& view, const Mat3<Pack>& dtL,
                                     const GroupPlace& was, const Pack (&share)[Shape::N],
@@ -168,18 +157,18 @@ KRATER_FORCE_INLINE void move_group(const ElementData& d, const ElementScratch& 
   double* kept = w.kept + was.local * kKeptPacks * kLanes;
   store(kept + Kept::lengths * kLanes, length.stable);
   store(kept + (Kept::lengths + 1) * kLanes, length.viscous);
+  shape.template keep<Kind>(at, kept + Kept::shape * kLanes);
   Pack mass = 0.0;
   for (const Pack& m : share) mass = mass + m;
+  const Pack per_mass = 1.0 / mass;
   for (int i = 0; i < D; ++i) {
     Pack x = 0.0, v = 0.0;
     for (int I = 0; I < N; ++I) {
       x = x + at.x[I][i];
       v = fma(share[I], at.v[I][i], v);
-      store(kept + (Kept::corners + D * I + i) * kLanes, at.x[I][i]);
-      store(kept + (Kept::corners + D * (N + I) + i) * kLanes, at.v[I][i]);
     }
     view.position.set(was.g, i, (1.0 / N) * x);
-    view.velocity.set(was.g, i, v / mass);
+    view.velocity.set(was.g, i, per_mass * v);
   }
 }
 
@@ -190,13 +179,8 @@ KRATER_FORCE_INLINE void find_next_forces(const ElementData& d, const double* ke
   using Shape = typename ShapeOf<Frame, On>::type;
   constexpr int D = Frame::dim, N = corner_nodes(D);
   Corners<D> at;
-  for (int I = 0; I < N; ++I)
-    for (int i = 0; i < D; ++i) {
-      at.x[I][i] = load(kept + (Kept::corners + D * I + i) * kLanes);
-      at.v[I][i] = load(kept + (Kept::corners + D * (N + I) + i) * kLanes);
-    }
   Shape shape;
-  shape.place(d, g, at.x);
+  shape.template take<Kind>(d, g, kept + Kept::shape * kLanes, at);
   Lengths length{load(kept + Kept::lengths * kLanes), load(kept + (Kept::lengths + 1) * kLanes)};
   if constexpr (!Shape::current) {
     const Mask renewed = d.reference == ElementReference::adaptive
@@ -258,7 +242,7 @@ KRATER_FORCE_INLINE void strain_group(const ElementData& d, const ElementScratch
       at.x[I][i] = at.x[I][i] + dt * at.v[I][i];  // as the node
     }
   shape.place_again(at.x);
-  move_group(d, w, view, dtL, {volume, g, local}, share, shape, at);
+  move_group<Kind>(d, w, view, dtL, {volume, g, local}, share, shape, at);
   if constexpr (keeps(Kind)) {
     shape.end_modes(at);
     for (int k = 0; k < Shape::size; ++k) store(kept + (Kept::rates + k) * kLanes, shape.moved[k]);

@@ -57,6 +57,7 @@ class Neighbours {
 
  private:
   using Key = std::uint64_t;
+  using Ranges = std::array<std::array<std::uint32_t, 2>, 9>;  ///< of items in sorted order
   struct Image {
     std::int32_t of;
     std::array<double, 3> sign, offset;
@@ -76,7 +77,8 @@ class Neighbours {
   double deepest(const Plane& plane, const double* x, std::size_t stride) const;
   void sort_items(int count);
   void find_pairs();
-  std::array<std::array<std::uint32_t, 2>, 9> near(const Cell& cell) const;
+  Ranges near_ranges(const Cell& cell) const;
+  std::size_t list_near(int particle, const Ranges& ranges, std::vector<std::int32_t>& out) const;
   void list_groups(std::size_t chunk, int count);
   std::array<double, 3> place_of(std::uint32_t item) const;
   std::vector<Reach> reaches(const double* motion) const;

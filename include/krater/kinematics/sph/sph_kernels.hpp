@@ -7,16 +7,17 @@
 /// other, particles first and then their mirror images:
 ///   motion  [x y z  V  vx vy vz  0]     places and volumes of the reference
 ///   load    [x y z V | A | v | D | Z | x now]   A = S K, 4 or 9 components (row-major),
-///           D = sym L, Z = rho c, x now where the reference is another: LoadRecord
+///           D = sym L, off the diagonal twice, Z = rho c, x now where the reference is another:
+///           LoadRecord
 /// and what a group has beside its columns in arrays of `groups` records:
 ///   correction [6][8]   power [8]   force [3][8]   remembered [2][8]: G and tr D of the last step
 ///   held [4][8]: of the forces, what holds zero-energy modes, and what it takes from motion [W]
 ///   reference [3][8], reference_density [8]: places and densities there   deformation [9][8]: F
 #include <cstdint>
 
-#include "krater/core/batch_types.hpp"
 #include "krater/core/isa_level.hpp"
 #include "krater/kinematics/sph/options.hpp"
+#include "krater/kinematics/sweep_result.hpp"
 #include "krater/materials/stage.hpp"
 
 namespace krater {
@@ -71,16 +72,10 @@ struct SphScratch {
 };
 inline constexpr int kSphGroups = 8;  ///< groups that a stage works on at once
 
-/// What a sweep over some groups leaves behind; combined in their order.
-struct SphResult {
-  double held = 0;                 ///< work against zero-energy modes [J]
-  double internal = 0;             ///< [J]
-  double max_rate = 0;             ///< 1/dt at CFL 1 [1/s]
-  int limiter = 0, limiting = -1;  ///< 0 wave, 2 dilatation; index of the particle
-  double stretch = 0;              ///< greatest component of |F^T F - 1|
-  int flat = 0;                    ///< particles whose correction is not the full one
-  Ledger ledger;
-  Fault fault;
+struct SphResult : SweepResult {
+  double held = 0;     ///< work against zero-energy modes [J]
+  double stretch = 0;  ///< greatest component of |F^T F - 1|
+  int flat = 0;        ///< particles whose correction is not the full one
 };
 
 class SphKernels {

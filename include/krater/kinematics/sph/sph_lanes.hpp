@@ -3,6 +3,7 @@
 /// Tensors over grid axes, columns and records of particles, eight at a time.
 #pragma once
 
+#include "krater/core/simd_rows.hpp"
 #include "krater/kinematics/sph/correction.hpp"
 #include "krater/kinematics/sph/sph_kernels.hpp"
 #include "krater/materials/batch_access.hpp"
@@ -99,8 +100,7 @@ KRATER_FORCE_INLINE Mat3<Pack> load_deformation(const SphData& d, int g) {
 /// Records that begin at `from`, eight of them, by components.
 KRATER_FORCE_INLINE void gather_records(const double* from, int stride, const std::int32_t* lanes,
                                         Pack (&r)[8]) {
-  for (int l = 0; l < kLanes; ++l) r[l] = load(from + stride * lanes[l]);
-  transpose8(r);
+  load_rows([=](int l) { return from + stride * lanes[l]; }, r);
 }
 KRATER_FORCE_INLINE void store_records(double* to, int stride, Pack (&r)[8]) {
   transpose8(r);
@@ -121,6 +121,11 @@ KRATER_FORCE_INLINE void gather_loads(const double* from, int stride, const std:
     gather_records(from + 8 * line, stride, lanes, out.r[line]);
 }
 
+/// What the step changes a group's velocities by, and heat.
+KRATER_FORCE_INLINE void load_changes(const SphData& d, int g, Pack (&out)[4]) {
+  load_columns([&](int l) { return d.changes + 4 * (kLanes * g + l); }, 0, out);
+}
+
 /// A group's own records of motion.
 template <int Dim>
 struct Own {
@@ -129,8 +134,7 @@ struct Own {
 template <int Dim>
 KRATER_FORCE_INLINE Own<Dim> load_own(const SphData& d, int g) {
   Pack r[8];
-  for (int l = 0; l < kLanes; ++l) r[l] = load(d.motion + kMotion * (kLanes * g + l));
-  transpose8(r);
+  load_rows([&](int l) { return d.motion + kMotion * (kLanes * g + l); }, r);
   Own<Dim> out;
   for (int a = 0; a < Dim; ++a) {
     out.x[a] = r[a];

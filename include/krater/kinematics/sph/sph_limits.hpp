@@ -7,20 +7,10 @@
 
 #include "krater/core/lane_math.hpp"
 #include "krater/core/stability.hpp"
+#include "krater/kinematics/note_rate.hpp"
 #include "krater/kinematics/sph/sph_lanes.hpp"
 
 namespace krater::inline KRATER_ISA {
-
-KRATER_FORCE_INLINE void note_rate(const SphData& d, Pack rate, int kind, int g, SphResult& out) {
-  const Pack valid = select(first_lanes(d.count - kLanes * g), rate, Pack(0.0));
-  if (!(hmax(valid) > out.max_rate)) return;
-  for (int l = 0; l < kLanes; ++l)
-    if (get(valid, l) > out.max_rate) {
-      out.max_rate = get(valid, l);
-      out.limiter = kind;
-      out.limiting = kLanes * g + l;
-    }
-}
 
 /// Length of a particle, V^(1/d), but no more than h: a damping across a greater one would be more
 /// than critical.
@@ -51,8 +41,8 @@ KRATER_FORCE_INLINE void note_limits(const SphData& d, const SphViews& view, int
   const Pack viscous = per_length * length * fma((2.0 * d.q_quad) * length, closing, d.q_lin * c);
   const Pack Qv = (0.7 * d.zero_energy / d.h) * c / per_length +
                   select(closing > Pack(0.0), viscous, Pack(0.0));
-  note_rate(d, per_length * (Qv + sqrt(fma(Qv, Qv, c_L_squared))), 0, g, out);
-  note_rate(d, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
+  note_rate(d.count, per_length * (Qv + sqrt(fma(Qv, Qv, c_L_squared))), 0, g, out);
+  note_rate(d.count, abs(tr_D) * (1 / kMostDilatation), 2, g, out);
 }
 
 KRATER_FORCE_INLINE void note_stretch(const Mat3<Pack>& F, Mask valid, SphResult& out) {

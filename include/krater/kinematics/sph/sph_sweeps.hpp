@@ -51,7 +51,7 @@ class Sweeps final : public SphKernels {
   template <class Load>
   static Pack tension_taken_back(const SphData& d, const WeightScale& scale, const Load& own,
                                  const Load& near, const Pack (&x)[Dim], Pack squared);
-  template <bool Held>
+  template <bool Held, bool Eased>
   static void sum_forces(const SphData& d, int first, int last);
   static Mat3<Pack> on_reference(const SphData& d, const SphViews& view, const Mat3<Pack>& stress,
                                  int g);
@@ -67,12 +67,9 @@ void Sweeps<Dim, Kind, Reference>::place(const SphData& d, bool ends, int first,
   alignas(64) static constexpr double zeros[9 * kLanes] = {};  // of the widest column
   const SphViews view = views_of(d, zeros);
   for (int g = first; g < last; ++g) {
-    Pack change[8], r[8];
+    Pack change[4], r[8];
     for (Pack& p : r) p = 0.0;
-    if (ends) {
-      for (int l = 0; l < kLanes; ++l) change[l] = loadu(d.changes + 4 * (kLanes * g + l));
-      transpose8(change);
-    }
+    if (ends) load_changes(d, g, change);
     for (int a = 0; a < Dim; ++a) {
       r[a] = fixed ? load(d.reference + (3 * g + a) * kLanes) : view.position(g, a);
       r[4 + a] = ends ? view.velocity(g, a) + change[a] : view.velocity(g, a);
@@ -101,7 +98,7 @@ KRATER_FORCE_INLINE void Sweeps<Dim, Kind, Reference>::sum_gradient(const SphDat
       x[a] = own.x[a] - r[a];
       squared = fma(x[a], x[a], squared);
     }
-    const Pack w = r[3] * weight_slope<Kind>(scale, squared);
+    const Pack w = r[3] * weight_slope<Kind>(scale, squared, inverse_distance(squared));
     for (int b = 0; b < Dim; ++b) {
       const Pack along = w * x[b];
       for (int a = 0; a < Dim; ++a) {
@@ -172,7 +169,8 @@ void Sweeps<Dim, Kind, Reference>::correct(const SphData& d, int first, int last
       put(at.v + a, own.v[a]);
       put(at.now + a, view.position(g, a));
       for (int b = 0; b <= a; ++b)
-        put(at.D + SymAxes<Pack, Dim>::place(a, b), 0.5 * (rates.c[a][b] + rates.c[b][a]));
+        put(at.D + SymAxes<Pack, Dim>::place(a, b),
+            a == b ? rates.c[a][a] : rates.c[a][b] + rates.c[b][a]);
     }
     put(3, own.volume);
     put(at.Z, view.density(g) * view.sound_speed(g));
@@ -201,7 +199,7 @@ KRATER_FORCE_INLINE Pack Sweeps<Dim, Kind, Reference>::tension_taken_back(
 }
 
 template <int Dim, SphKernel Kind, SphReference Reference>
-template <bool Held>
+template <bool Held, bool Eased>
 void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int last) {
   constexpr int lines = ((Held ? (fixed ? at.now + Dim : at.now) : at.v) + 7) / 8;
   const WeightScale scale = weight_scale<Kind>(Dim, d.h);
@@ -219,31 +217,36 @@ void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int l
         x[a] = own[a] - near[a];
         squared = fma(x[a], x[a], squared);
       }
-      const Pack w = near[3] * weight_slope<Kind>(scale, squared);
+      Pack per_r = inverse_distance(squared);
+      const Pack w = near[3] * weight_slope<Kind>(scale, squared, per_r);
       for (int b = 0; b < Dim; ++b) {
         const Pack along = w * x[b];
         for (int a = 0; a < Dim; ++a)
           f[a] = fma(own[at.A + Dim * a + b] + near[at.A + Dim * a + b], along, f[a]);
       }
       if constexpr (Held) {
-        if constexpr (fixed)
-          for (int a = 0; a < Dim; ++a) x[a] = own[at.now + a] - near[at.now + a];
+        if constexpr (fixed) {
+          Pack squared_now = 0.0;
+          for (int a = 0; a < Dim; ++a) {
+            x[a] = own[at.now + a] - near[at.now + a];
+            squared_now = fma(x[a], x[a], squared_now);
+          }
+          per_r = inverse_distance(squared_now);
+        }
         Pack parting = 0.0, linear = 0.0;  // v_ij.x_ij, x_ij.(D_i + D_j) x_ij
-        Pack squared_now = 0.0;
         for (int a = 0; a < Dim; ++a) {
-          squared_now = fma(x[a], x[a], squared_now);
           parting = fma(own[at.v + a] - near[at.v + a], x[a], parting);
-          for (int b = 0; b < Dim; ++b) {
+          for (int b = 0; b <= a; ++b) {
             const int D = at.D + SymAxes<Pack, Dim>::place(a, b);
-            linear = fma((own[D] + near[D]) * x[a], x[b], linear);
+            linear = fma(own[D] + near[D], x[a] * x[b], linear);
           }
         }
-        const Pack per_square = 1.0 / max(squared_now, Pack(1e-280));
         // Of a lane without a neighbour differences are zero, and w is not: they come first.
-        const Pack left = fnma(Pack(0.5), linear, parting) * sqrt(per_square);
+        const Pack left = fnma(Pack(0.5), linear, parting) * per_r;
         Pack pull = damped * (own[at.Z] + near[at.Z]) * left * w;
-        if constexpr (!fixed)
-          pull = fnma(tension_taken_back(d, scale, own, near, x, squared) * per_square, w, pull);
+        if constexpr (Eased)
+          pull =
+              fnma(tension_taken_back(d, scale, own, near, x, squared) * (per_r * per_r), w, pull);
         for (int a = 0; a < Dim; ++a) held[a] = fma(pull, x[a], held[a]);
         heat = fnma(pull, parting, heat);
       }
@@ -259,10 +262,12 @@ void Sweeps<Dim, Kind, Reference>::sum_forces(const SphData& d, int first, int l
 
 template <int Dim, SphKernel Kind, SphReference Reference>
 void Sweeps<Dim, Kind, Reference>::forces(const SphData& d, int first, int last) const {
-  if (d.zero_energy > 0 || d.artificial_stress > 0)
-    sum_forces<true>(d, first, last);
+  if (!fixed && d.artificial_stress > 0)
+    sum_forces<true, !fixed>(d, first, last);
+  else if (d.zero_energy > 0)
+    sum_forces<true, false>(d, first, last);
   else
-    sum_forces<false>(d, first, last);
+    sum_forces<false, false>(d, first, last);
 }
 
 template <int Dim, SphKernel Kind, SphReference Reference>
@@ -295,9 +300,8 @@ KRATER_FORCE_INLINE void Sweeps<Dim, Kind, Reference>::strain_group(const SphDat
   const Mat3<Pack> L = gradient(d, N, K, g);
   const Sym3<Pack> sigma = whole_stress(view, g);
   const Pack power = 0.5 * (load(d.power + kLanes * g) + contract(sigma, sym(L)));
-  Pack change[8], held = load(d.held + (4 * g + 3) * kLanes);
-  for (int l = 0; l < kLanes; ++l) change[l] = loadu(d.changes + 4 * (kLanes * g + l));
-  transpose8(change);
+  Pack change[4], held = load(d.held + (4 * g + 3) * kLanes);
+  load_changes(d, g, change);
   for (int a = 0; a < Dim; ++a)
     held = fnma(0.5 * load(d.held + (4 * g + a) * kLanes), change[a], held);
   out.held += dt * sum(select(first_lanes(d.count - kLanes * g), held, Pack(0.0)));

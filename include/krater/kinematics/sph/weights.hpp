@@ -10,7 +10,8 @@
 /// whose slope grows all the way inwards, so that no pair that is pressed together yields.
 /// and their slopes by the distance, W'(r)/r: finite at r = 0, so that a particle may stand in its
 /// own list, or a lane that is empty for it, and adds nothing there. No gradient of a weight is
-/// longer than its h times W'/r at the inflexion.
+/// longer than its h times W'/r at the inflexion. A pair is worth one division and one root: 1/r
+/// (inverse_distance()), from which q and 1/q follow.
 #pragma once
 
 #include <numbers>
@@ -22,7 +23,7 @@ namespace krater::inline KRATER_ISA {
 
 /// Numbers that a sweep needs of h.
 struct WeightScale {
-  double per_h = 0, size = 0, slope = 0;  ///< 1/h; s; s/h^2
+  double h = 0, per_h = 0, size = 0, slope = 0;  ///< h; 1/h; s; s/h^2
 };
 
 template <SphKernel Kind>
@@ -35,21 +36,27 @@ KRATER_FORCE_INLINE WeightScale weight_scale(int dimension, double h) {
                        : Kind == SphKernel::wendland_c2 ? 21.0 / 16.0
                                                         : 15.0 / 16.0;
   const double s = dimension == 2 ? plane * per_pi / (h * h) : space * per_pi / (h * h * h);
-  return {1 / h, s, s / (h * h)};
+  return {h, 1 / h, s, s / (h * h)};
 }
 
-/// W'(r)/r from r^2; zero or less.
+/// 1/r from r^2, finite at 0.
+template <class Real>
+KRATER_FORCE_INLINE Real inverse_distance(Real r_squared) {
+  return sqrt(1.0 / max(r_squared, Real(1e-280)));
+}
+
+/// W'(r)/r from r^2 and 1/r; zero or less.
 template <SphKernel Kind, class Real>
-KRATER_FORCE_INLINE Real weight_slope(const WeightScale& scale, Real r_squared) {
-  const Real q = Real(scale.per_h) * sqrt(max(r_squared, Real(1e-280)));
-  const Real rest = max(Real(0.0), 2.0 - q);
-  if constexpr (Kind == SphKernel::cubic_spline) {
-    const Real inner = fma(Real(2.25), q, Real(-3.0)), outer = -0.75 * rest * rest / q;
-    return Real(scale.slope) * select(q < Real(1.0), inner, outer);
-  } else if constexpr (Kind == SphKernel::wendland_c2) {
-    return Real(-0.625 * scale.slope) * (rest * rest * rest);
+KRATER_FORCE_INLINE Real weight_slope(const WeightScale& scale, Real r_squared, Real per_r) {
+  if constexpr (Kind == SphKernel::quadratic) {
+    return scale.slope * min(Real(0.0), fnma(Real(scale.h), per_r, Real(0.5)));
   } else {
-    return Real(-0.5 * scale.slope) * rest / q;
+    const Real q = Real(scale.per_h) * (r_squared * per_r), rest = max(Real(0.0), 2.0 - q);
+    if constexpr (Kind == SphKernel::wendland_c2)
+      return Real(-0.625 * scale.slope) * (rest * rest * rest);
+    const Real inner = fma(Real(2.25), q, Real(-3.0)),
+               outer = (-0.75 * scale.h) * rest * rest * per_r;
+    return Real(scale.slope) * select(q < Real(1.0), inner, outer);
   }
 }
 
