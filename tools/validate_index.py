@@ -110,6 +110,10 @@ FIGURES = {
     "analyst": lambda r: Figure("an example to the first picture that was asked for", r.cell("^the first picture", "since the start")),
     "calibration": lambda r: Figure("bands that hold the truth (demanded 90 %)",
                                     r.found(r"\*\*([\d.]+ % of \d+) bands")),
+    "ccf_bars": lambda r: Figure(
+        "impact end of a bar of elements, ten across: sides over diagonals (a turned square 1.41)",
+        r.table("^truesdell, assumed_strain, current", "least V/V0").at("^truesdell, assumed_strain, current",
+                                                                        "sides/diagonals").split(" / ")[0]),
     "ccf_hypervelocity": lambda r: r.finest("penetration at 10 us", "penetration", "^40 cells", "^20 cells"),
     "ccf_plugging": lambda r: r.finest("residual velocity (measured 241.4 m/s)", "residual velocity", "^80 cells",
                                        "^40 cells"),

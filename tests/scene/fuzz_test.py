@@ -73,8 +73,10 @@ with Folder():
     points()
 run("studies that failed once", "/usr/bin/python3", ROOT / "tests/fuzz/study_fuzz.py", "--replay")
 run("studies", "/usr/bin/python3", ROOT / "tests/fuzz/study_fuzz.py", "--runs", "500")
-if (ROOT / "build-fuzz" / "surface_fuzz").exists():
-    run("tools/fuzz", ROOT / "tools/fuzz", "scene", "point", "stl", "off", "obj", "ply", "--runs", "1000", "--seconds", "20")
-else:
-    print("skip  tools/fuzz has not been built")
+programs = {"scene_fuzz": ["scene"], "point_fuzz": ["point"], "surface_fuzz": ["stl", "off", "obj", "ply"]}
+for program, targets in programs.items():
+    if (ROOT / "build-fuzz" / program).exists():
+        run(program, ROOT / "tools/fuzz", *targets, "--runs", "1000", "--seconds", "20")
+    else:
+        print(f"skip  {program} has not been built (tools/fuzz --build {targets[0]})")
 finish()

@@ -130,6 +130,16 @@ def kinds_ask(made):
         declared = set(variant["properties"])
         check(asked.get(kind) == declared, f"measure {kind}: the reader asks for the declared keys",
               f"asked {sorted(asked.get(kind, set()) - declared)}, declared {sorted(declared - asked.get(kind, set()))}")
+    said = ""
+    for first in range(0, len(measures), 8):
+        base["measures"] = {kind: {"kind": kind, "body": body} for kind in list(measures)[first:first + 8]}
+        pathlib.Path("kinds.yaml").write_text(yaml.safe_dump(base), encoding="utf-8")
+        said += krater("check", "kinds.yaml", "--set", "frame=3d").stderr
+    asked = {(kind, key) for kind, key in re.findall(r"measures\.(\w+): missing key '(\w+)'", said)}
+    declared = {(variant["properties"]["kind"]["enum"][0], key) for variant in variants for key, info in variant["properties"].items()
+                if key in set(variant["required"]) - {"kind", "body"} or "required in 3d" in info["x-default"]}
+    check(asked == declared and len(asked) > 15, "what a kind requires is what the reader misses",
+          f"only missed {sorted(asked - declared)}, only declared {sorted(declared - asked)}")
     missing = []
     for variant in variants:  # without each required key: refused by both
         kind = variant["properties"]["kind"]["enum"][0]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -101,6 +102,8 @@ std::vector<std::string> repair_surface(Triangles& t, const RepairOptions& optio
   if (options.merge_vertices > 0) tell(weld(t, options.merge_vertices), "vertices merged");
   if (options.drop_facets) {
     tell(drop_facets(t), "facets of zero area or duplicates dropped");
+    if (t.facets.empty())
+      throw std::invalid_argument("none of its facets has an area: nothing is left to mend");
     weld(t, 0);
   }
   if (options.orient) {

@@ -51,8 +51,11 @@ std::vector<std::uint32_t> representatives(const std::vector<Vector3>& vertices,
       continue;
     }
     std::array<std::int64_t, 3> c{};
+    const std::array<std::int64_t, 3> bits = bits_of(vertices[n]);
     for (std::size_t a = 0; a < 3; ++a) {
-      c[a] = static_cast<std::int64_t>(std::floor(vertices[n][a] / distance));
+      const double cell = std::floor(vertices[n][a] / distance);
+      // Further out no two different numbers are so near.
+      c[a] = std::abs(cell) < 0x1p53 ? static_cast<std::int64_t>(cell) : bits[a];
     }
     same[n] = own;
     for (int k = 0; k < 27 && same[n] == own; ++k) {

@@ -148,6 +148,23 @@ TEST_SUITE("unit") {
     CHECK(twice->contains(1, 1, 1));
   }
 
+  TEST_CASE("surface: what has no facet left is refused before it is turned") {
+    Triangles flat{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 2}, {1, 2, 3}}};
+    RepairOptions repair;
+    repair.drop_facets = repair.orient = true;
+    repair.close_holes = 1;
+    CHECK_THROWS_WITH_AS(repair_surface(flat, repair), doctest::Contains("facets has an area"),
+                         std::invalid_argument);
+  }
+
+  TEST_CASE("surface: vertices far out of any part are merged where they are equal") {
+    const double far = -1e40;
+    Triangles t{{{far, 0, 0}, {1, 0, 0}, {0, 1, 0}, {far, 0, 0}, {far, 1e-7, 0}, {-far, 0, 0}},
+                {{0, 1, 2}, {3, 2, 1}, {4, 1, 2}, {5, 1, 2}}};
+    CHECK(weld(t, 1e-6) == 2);  // the equal one, and one nearer than the distance
+    CHECK(t.vertices.size() == 4);
+  }
+
   TEST_CASE("surface: every defect is found, counted and placed; what can be mended is") {
     const Box unit{{0, 0, 0}, {1, 1, 1}};
     const Triangles sound = box_surface(unit);
