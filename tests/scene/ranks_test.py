@@ -27,7 +27,10 @@ CASES = {
     "bars": ("ccf_two_bars.yaml", ["grid.cell=1.25 mm", "time.end=6 us", "output.frames=3 us"]),
     # debris
     "bumper": ("hiermaier_al.yaml", ["grid.cell=1 mm", "time.end=3 us", "output.frames=1 us"]),
-    # impulses of contact and of a wall, gauges, a body force, another update
+    # points that leave the box
+    "leaves": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.3 mm",
+                                      "bodies.rod.velocity=[0, 400 m/s]", "grid.box.max=[12 mm, 26 mm]"]),
+    # impulses of contact, a body force, another update
     "measured": ("ccf_plugging.yaml", ["grid.cell=1.5 mm", "time.end=20 us", "output.frames=10 us",
                                        "method.update=musl", "body_force=[0, 1e6]",
                                        "measures.given={kind: impulse, body: projectile, axis: z, by: plate}"]),
