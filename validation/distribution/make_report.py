@@ -36,7 +36,7 @@ SCENES = {
     "ccf_two_bars": ["grid.cell=1.25 mm", "time.end=3 us", "output.frames=1.5 us"],
     "ccf_hypervelocity": ["grid.cell=1 mm", "time.end=1 us", "output.frames=0.5 us"],
     "hiermaier_al": ["grid.cell=1 mm", "time.end=2 us", "output.frames=1 us"],
-    "spear_plate": ["grid.cell=2 mm", "time.end=5 us", "output.frames=5 us"],
+    "spear_plate": ["grid.cell=3.5 mm", "time.end=5 us", "output.frames=5 us"],
     "two_discs": ["time.end=0.3 s", "output.frames=0.15 s"],
     "copper_bar": ["time.end=2 us", "output.frames=1 us"],
     "bar_pulled_apart": ["time.end=2 us", "output.frames=1 us"],
