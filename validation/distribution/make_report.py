@@ -19,7 +19,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
 from validate_runs import ROOT, Study  # noqa: E402
 
-ESTIMATED_SECONDS = 900  # on two quiet cores
+ESTIMATED_SECONDS = 180  # on two quiet cores
 
 ALONE = os.environ.get("KRATER", os.path.join(ROOT, "build", "krater"))
 MANY = os.path.join(os.path.dirname(ALONE), "krater_on_ranks")
