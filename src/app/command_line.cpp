@@ -69,7 +69,7 @@ int dispatch(const Commands& commands, const RunOptions& options, const ModelQue
   try {
     if (!ranks::alone() && !options.accuracy.empty())
       throw InputError("--accuracy makes many runs; start krater without mpirun");
-    if (!commands.run.parsed()) {
+    if (!commands.run.parsed() || !options.accuracy.empty()) {
       if (!ranks::first()) return kDone;
       ranks::part();
     }

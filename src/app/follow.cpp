@@ -11,7 +11,9 @@
 namespace krater {
 
 Readiness::~Readiness() {
-  if (!agreed_) ranks::max(1);
+  if (agreed_) return;
+  const bool first_failed = ranks::max(ranks::first() ? 2 : 1) > 1;
+  if (!first_failed) ranks::speak();
 }
 
 void Readiness::agree() {

@@ -8,7 +8,8 @@
 
 namespace krater {
 
-/// Ranks go on together or not at all: one that cannot begin says so by not coming to agree().
+/// Ranks go on together or not at all: one that cannot begin says so by not coming to agree(). What
+/// keeps it is heard where the first rank has nothing to say itself.
 class Readiness {
  public:
   Readiness() = default;

@@ -2,7 +2,6 @@
 #include "krater/app/run.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include <fmt/format.h>

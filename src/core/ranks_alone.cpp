@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Without MPI: one rank.
+#include <cstdio>
 #include <cstdlib>
 
 #include "krater/core/ranks.hpp"
 
 namespace krater::ranks {
 
-void start(int&, char**&) {}
+void start(int&, char**&) {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    const char* count = std::getenv(name);
+    if (count == nullptr || std::atoi(count) < 2) continue;
+    std::fprintf(
+        stderr,
+        "krater: started as one of %s processes, but built without MPI: tools/setup --mpi, "
+        "then tools/build -DKRATER_MPI=ON\n",
+        count);
+    std::exit(2);
+  }
+}
 void finish() {}
 void part() {}
+void speak() {}
 void give_up(const std::string&, int code) { std::_Exit(code); }
 std::string description() { return "no MPI"; }
 int index() { return 0; }

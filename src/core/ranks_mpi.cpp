@@ -3,6 +3,8 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -51,10 +53,11 @@ void add_sums(void* in, void* inout, int* count, MPI_Datatype*) {
 }
 
 /// A launcher tells its children who they are.
+constexpr std::array<const char*, 3> kLaunched{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
+
 bool launched() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-    if (std::getenv(name) != nullptr) return true;
-  return false;
+  return std::any_of(kLaunched.begin(), kLaunched.end(),
+                     [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
 /// MPI counts in int.
@@ -89,15 +92,22 @@ void finish() {
   MPI_Op_free(&world.sum_op);
   MPI_Type_free(&world.sum_type);
   MPI_Finalize();
+  world.started = false;
 }
 
 void part() {
+  finish();
   world.index = 0;
   world.count = 1;
+  for (const char* name : kLaunched) unsetenv(name);  // programs that this one starts are no ranks
+}
+
+void speak() {
+  if (world.speech >= 0) dup2(world.speech, STDERR_FILENO);
 }
 
 void give_up(const std::string& why, int code) {
-  if (world.speech >= 0) dup2(world.speech, STDERR_FILENO);
+  speak();
   std::fprintf(stderr,
                "%s\nkrater: rank %d of %d cannot go on, so all end; the last checkpoint is whole\n",
                why.c_str(), world.index, world.count);

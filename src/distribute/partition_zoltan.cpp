@@ -22,6 +22,10 @@ struct Partition::Cuts {
   explicit Cuts(int d) : dimension{d} {
     const char* deal = std::getenv("KRATER_DEAL");
     scattered = deal != nullptr && std::string{deal} == "scattered";
+  }
+  /// Zoltan begins on all ranks together: none may wait here for one that could not begin.
+  void begin() {
+    if (zoltan != nullptr) return;
     float version = 0;
     if (Zoltan_Initialize(0, nullptr, &version) != ZOLTAN_OK)
       throw NumericalError("Zoltan does not start");
@@ -37,7 +41,9 @@ struct Partition::Cuts {
     Zoltan_Set_Num_Geom_Fn(zoltan, count_axes, this);
     Zoltan_Set_Geom_Fn(zoltan, place_block, this);
   }
-  ~Cuts() { Zoltan_Destroy(&zoltan); }
+  ~Cuts() {
+    if (zoltan != nullptr) Zoltan_Destroy(&zoltan);
+  }
   Cuts(const Cuts&) = delete;
   Cuts& operator=(const Cuts&) = delete;
 
@@ -76,6 +82,7 @@ void Partition::cut(const std::vector<Weighted>& own) {
     ++cuts_->shuffles;
     return;
   }
+  cuts_->begin();
   cuts_->blocks = &own;
   int changes = 0, wide_global = 0, wide_local = 0, imports = 0, exports = 0;
   ZOLTAN_ID_PTR import_global = nullptr, import_local = nullptr, export_global = nullptr,

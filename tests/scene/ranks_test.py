@@ -88,8 +88,18 @@ def errors():
           done.stderr[:200])
     done = subprocess.run([*LAUNCHER, "2", str(PROGRAM), "check", str(INPUTS / scene)], capture_output=True, text=True,
                           timeout=60, check=False, env=environment(AS_ROOT))
-    check(done.returncode == 0 and done.stdout.count("cells on the radius") <= 1 and "points" in done.stdout,
-          "what is no run is done once", done.stderr[-200:])
+    check(done.returncode == 0 and done.stdout.count("Taylor anvil") == 1, "what is no run is done once",
+          done.stderr[-200:])
+    other = [str(PROGRAM), "run", str(INPUTS / scene), "-o", "uneven", "-j", "1", *settings(values)]
+    done = subprocess.run([*LAUNCHER, "1", *other, ":", "-np", "1", *other, "--set", "grid.cells=1 mm"], timeout=60,
+                          capture_output=True, text=True, check=False, env=environment(AS_ROOT))
+    check(done.returncode == 2 and "grid.cells" in done.stderr and "another rank" in done.stderr,
+          "what keeps one rank from beginning ends all and is heard", done.stderr[:300])
+    alone = subprocess.run([KRATER, "--version"], capture_output=True, text=True, check=False,
+                           env=environment({"OMPI_COMM_WORLD_SIZE": "4"}))
+    if PROGRAM != pathlib.Path(KRATER):
+        check(alone.returncode == 2 and "KRATER_MPI" in alone.stderr, "a program without MPI does not run several times",
+              alone.stderr)
     done = on_ranks(2, scene, "unknown", "grid.cells=1 mm")
     check(done.returncode == 2 and done.stderr.count("grid.cells") >= 1, "a wrong key ends all ranks", last_line(done))
     pathlib.Path("blocked").write_text("a file")

@@ -20,12 +20,16 @@ struct Message {
   std::vector<double> data;
 };
 
-/// At the start of the program, if a launcher started it. Ranks but the first say nothing.
+/// At the start of the program, if a launcher started it. Ranks but the first say nothing. A
+/// program without MPI that a launcher started several times ends here: each would compute the
+/// whole scene.
 void start(int& argc, char**& argv);
 /// At its end, on every rank that comes to it.
 void finish();
 /// This rank goes on alone: what follows is no work of several.
 void part();
+/// It is heard from now on: it knows something that the first rank does not.
+void speak();
 /// Ends all ranks at once: this one cannot go on, and the others would wait for it for ever.
 [[noreturn]] void give_up(const std::string& why, int code);
 /// "Open MPI v4.1.4", or "no MPI": for `krater --version`.
