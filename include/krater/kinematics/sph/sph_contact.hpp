@@ -13,6 +13,8 @@
 /// grid, pushed as they are. What is lost of motion is heat of what was pushed, by m |dv|^2.
 /// Particles further than kReach cells from the box of any other body do not take part, nor those
 /// outside the domain. A body does not meet itself.
+/// In parallel over particles and over blocks of nodes: a block sums what reaches it in the order
+/// of the particles, so bits do not depend on threads.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -20,6 +22,7 @@
 
 #include "krater/contact/contact.hpp"
 #include "krater/contact/impulses.hpp"
+#include "krater/core/parallel.hpp"
 #include "krater/kinematics/encounter.hpp"
 #include "krater/kinematics/sph/sph_step.hpp"
 
@@ -50,14 +53,15 @@ class SphContact final : public Encounter {
 
  private:
   struct Carrier {
-    std::size_t set;
-    int particle;
+    int set, particle;
     BlockKey key;
     int patch;                 ///< of nodes_
     std::array<int, 3> first;  ///< storage index of the first node
     double weight[3][3];       ///< [axis][node]
     double mass, volume;
+    Triple momentum;
     Triple by_contact;  ///< dv
+    EncounterLoss loss;
   };
   /// A body at a block of nodes.
   struct Entry {
@@ -73,23 +77,38 @@ class SphContact final : public Encounter {
   };
 
   static bool earlier(const Entry& a, const Entry& b);
-  std::vector<SpaceBox> boxes();
+  SpaceBox box_of_set(int set) const;
+  std::vector<SpaceBox> boxes() const;
   SpaceBox box_of(const BlockKey& key) const;
-  void add_carriers(int set, const std::vector<SpaceBox>& others);
+  bool takes_part(const Triple& x, const std::vector<SpaceBox>& others) const;
+  Carrier carrier_of(int set, int particle) const;
+  void add_carriers(int set, const std::vector<SpaceBox>& others, std::vector<Entry>& blocks);
   bool find_carriers();
   void lay_out(std::vector<Entry> entries);
-  void place(Carrier& carrier, const Triple& x) const;
+  void list_reaching();
   void share_blocks();
+  void add_to(const NodeBlock& block, const Carrier& carrier) const;
   void fill();
   void show_points();
   void give_back();
   void take_pushes();
-  EncounterLoss loss() const;
+  EncounterLoss loss();
   void book_rigid(const ContactWork& work, double kinetic);
   template <class Visit>
-  void for_nodes(const Carrier& carrier, const Visit& visit);
+  void for_nodes(const Carrier& carrier, const Visit& visit) const;
+  /// visit(carrier) on any thread: it may change that carrier and its particle.
+  template <class Visit>
+  void for_carriers(const Visit& visit) {
+    constexpr std::size_t kChunk = 64;
+    for_each((carriers_.size() + kChunk - 1) / kChunk, [&](std::size_t c) {
+      for (std::size_t k = kChunk * c; k < carriers_.size() && k < kChunk * (c + 1); ++k)
+        visit(carriers_[k]);
+    });
+  }
 
-  int dim_;
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  int dim_, edge_;
+  std::array<int, 3> stride_;  ///< of nodes in a block
   GridGeometry geometry_;
   Parts parts_;
   std::vector<std::size_t> set_of_body_;  ///< of particles; kNone
@@ -100,6 +119,7 @@ class SphContact final : public Encounter {
   // Of the step:
   std::vector<Entry> entries_;
   std::vector<Carrier> carriers_;
+  std::vector<std::uint32_t> first_reaching_, reaching_;  ///< carriers, by block of nodes
   std::vector<Shared> shared_;
   Triple given_{};  ///< to particles, at nodes [N s]
   double friction_ = 0, pairs_ = 0, rigid_work_ = 0;
