@@ -21,6 +21,10 @@ const char* wanted_of(Frame frame) {
   return dimension(frame) == 3 ? "8-node hexahedra" : "4-node quadrilaterals";
 }
 
+const char* one_of(Frame frame) {
+  return dimension(frame) == 3 ? "8-node hexahedron" : "4-node quadrilateral";
+}
+
 Indices of_dimension(const MeshFile& file, const Indices& all, int dim) {
   Indices out;
   for (const std::size_t e : all)
@@ -38,6 +42,13 @@ std::string list_of(const MeshFile& file, int dim) {
   return out.empty() ? "none that it names" : out;
 }
 
+/// "file:line: element 12 (C3D8R)".
+std::string name_of(const MeshFile& file, std::size_t element) {
+  const MeshFile::Element& e = file.elements[element];
+  return fmt::format("{}:{}: element {} ({})", file.name, e.line, e.number,
+                     file.kinds[e.kind].name);
+}
+
 /// The elements of the part asked for, or of the only one.
 Indices select(const MeshFile& file, Frame frame, const std::optional<std::string>& name,
                std::string& told) {
@@ -53,6 +64,11 @@ Indices select(const MeshFile& file, Frame frame, const std::optional<std::strin
         std::sort(out.begin(), out.end());
         out.erase(std::unique(out.begin(), out.end()), out.end());
         if (!out.empty()) return out;
+        if (!part.elements.empty())
+          throw std::invalid_argument(fmt::format(
+              "{} of part '{}' is no {}, nor are the others: a body in the frame {} is made of {}",
+              name_of(file, part.elements.front()), *name, one_of(frame), krater::name(frame),
+              wanted_of(frame)));
       }
     throw std::invalid_argument(fmt::format("{}: has no part '{}' of {}; there are: {}", file.name,
                                             *name, wanted_of(frame), list_of(file, dim)));
@@ -77,13 +93,6 @@ Indices select(const MeshFile& file, Frame frame, const std::optional<std::strin
                     "there are: {}",
                     file.name, list_of(file, dim)));
   return all;
-}
-
-/// "file:line: element 12 (C3D8R)".
-std::string name_of(const MeshFile& file, std::size_t element) {
-  const MeshFile::Element& e = file.elements[element];
-  return fmt::format("{}:{}: element {} ({})", file.name, e.line, e.number,
-                     file.kinds[e.kind].name);
 }
 
 void require_kind(const MeshFile& file, std::size_t element, Frame frame) {

@@ -79,6 +79,10 @@ std::vector<BadFile> bad_bricks() {
        with(inp, "C3D8R, elset=rod", "U1, elset=rod"),
        "rod",
        {"(U1)", "does not know"}},
+      {"family.inp",
+       with(inp, "C3D8R, elset=rod", "C3D99, elset=rod"),
+       "rod",
+       {"(C3D99)", "does not know"}},
       {"shell.inp",
        with(inp, "C3D8R, elset=rod", "SC8R, elset=rod"),
        "rod",
@@ -245,7 +249,8 @@ TEST_SUITE("unit") {
     const std::string file = folder.write("a.inp", text);
     CHECK(message_of_part(file, Frame::plane_strain, {"rod", 1, 0})
               .find("meant for the frame axisymmetric") != std::string::npos);
-    CHECK(message_of_part(file, Frame::cartesian_3d, {"rod", 1, 0}).find("8-node hexahedra") !=
+    CHECK(message_of_part(file, Frame::cartesian_3d, {"rod", 1, 0})
+              .find("element 1 (CAX4R) of part 'rod' is no 8-node hexahedron") !=
           std::string::npos);
     const std::string left = folder.write("b.inp", with(text, "1, 0, 0\n", "1, -0.5, 0\n"));
     CHECK(message_of_part(left, Frame::axisymmetric, {"rod", 1, 0})
