@@ -27,8 +27,11 @@ Stage* make(int index, const double* values, const MaterialConstants& constants,
 }
 
 Stage* make_kinematics(bool keeps_F, Layout& layout) {
-  if (keeps_F) return new KinematicsStage<true>{layout};
-  return new KinematicsStage<false>{layout};
+  const bool keeps_M = layout.find("domain") != nullptr && layout.find("half_width") == nullptr;
+  if (keeps_F && keeps_M) return new KinematicsStage<true, true>{layout};
+  if (keeps_F) return new KinematicsStage<true, false>{layout};
+  if (keeps_M) return new KinematicsStage<false, true>{layout};
+  return new KinematicsStage<false, false>{layout};
 }
 
 Stage* make_signal_speed(double q_lin, double q_quad, double density, Layout& layout) {

@@ -200,7 +200,7 @@ BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
   add_stress(sim, body, points, out);
   if (!sim.scene().grid.refine.empty() && body.options().material_points())
     out.fields.push_back(level_field(sim, b));
-  if (sim.scene().method.numerical_fracture == NumericalFracture::watch &&
+  if (sim.scene().method.numerical_fracture != NumericalFracture::ignore &&
       body.options().material_points() && !body.options().rigid())
     add_fracture(sim, b, out);
   for (int s = 0; s < sim.set_count() && part != DrawnSets::points; ++s)

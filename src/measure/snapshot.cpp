@@ -116,7 +116,6 @@ void add_levels(const Simulation& sim, std::vector<Quantity>& row) {
   for (int level = 0; level <= sim.scene().grid.finest(); ++level)
     add(row, "points_level_" + std::to_string(level), "1",
         static_cast<double>(points_at(sim, level)));
-  add(row, "level_heat", "J", sim.audit().level_heat);
 }
 
 void add_levels(const Simulation& sim, Json& j) {
@@ -124,6 +123,15 @@ void add_levels(const Simulation& sim, Json& j) {
   Json& counts = j["points_by_level"];
   for (int level = 0; level <= sim.scene().grid.finest(); ++level)
     counts[std::to_string(level)] = Json::of(static_cast<std::int64_t>(points_at(sim, level)));
+}
+
+/// Points that are made and taken away while the scene runs.
+void add_made_points(const Simulation& sim, std::vector<Quantity>& row) {
+  if (sim.makes_points()) add(row, "level_heat", "J", sim.audit().level_heat);
+}
+
+void add_made_points(const Simulation& sim, Json& j) {
+  if (!sim.makes_points()) return;
   j["split_points"] = Json::of(static_cast<std::int64_t>(sim.audit().split_points));
   j["merged_points"] = Json::of(static_cast<std::int64_t>(sim.audit().merged_points));
   j["level_heat"] = Json::of(sim.audit().level_heat);
@@ -131,6 +139,7 @@ void add_levels(const Simulation& sim, Json& j) {
 
 void add_points(const Simulation& sim, std::vector<Quantity>& row) {
   add_levels(sim, row);
+  add_made_points(sim, row);
   add_torn_points(sim, row);
 }
 
@@ -245,6 +254,7 @@ Json audit_json(const Simulation& sim) {
   if (sim.mesh() != nullptr) add_elements(sim, j);
   add_particles(sim, j);
   add_levels(sim, j);
+  add_made_points(sim, j);
   add_torn_points(sim, j);
   j["removed_energy"] = Json::of(a.removed_energy);
   j["energy_residual"] = Json::of(residual);

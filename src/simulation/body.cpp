@@ -94,6 +94,8 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
     if (wants(scene, field::DeformationGradient::info) || strained(scene, index))
       layout_.state<field::DeformationGradient>(0, "output");
   } else {
+    const bool keeps_reference =
+        scene.body_force != nullptr || wants(scene, field::ReferencePosition::info);
     declare_points(
         method,
         {.density = material_->density,
@@ -102,7 +104,9 @@ Body::Body(const Scene& scene, int index, const StageFactory& factory)
          .walls = has_wall(scene),
          .reference_position = wants(scene, field::ReferencePosition::info),
          .deformation = wants(scene, field::DeformationGradient::info) || strained(scene, index) ||
-                        method.numerical_fracture == NumericalFracture::watch},
+                        (keeps_reference && method.numerical_fracture == NumericalFracture::split),
+         .domain =
+             options_->material_points() && method.numerical_fracture != NumericalFracture::ignore},
         layout_);
   }
   add_stages(factory);

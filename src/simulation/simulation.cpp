@@ -297,10 +297,7 @@ void Simulation::advance(double until) {
   if (walls_act_on_points())
     audit_.book_point_walls(wall_force, taken, !scene_.body_force && !scene_.loads.any());
   clock_.advance(asked, taken, until);
-  if (refinement_ && steps() % kRegridSteps == 0) {
-    if (refinement_->moves()) step_->regrid(refinement_->find(grid_));
-    if (scene_.grid.merge) step_->merge();
-  }
+  if (steps() % kRegridSteps == 0) fit_points();
   find_limit();
   if (mesh_) adopt_converted();
   try {
@@ -310,6 +307,13 @@ void Simulation::advance(double until) {
   }
   watch(*this, warnings_);
   judge_energy(done());
+}
+
+/// Blocks of cells to the rules of the scene, points to the cells.
+void Simulation::fit_points() {
+  if (refinement_ && refinement_->moves()) step_->regrid(refinement_->find(grid_));
+  if (scene_.method.numerical_fracture == NumericalFracture::split) step_->split_stretched();
+  if (scene_.grid.merge) step_->merge();
 }
 
 void Simulation::fail_fault(const StepFault& fault) {

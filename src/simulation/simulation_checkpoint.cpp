@@ -117,6 +117,9 @@ void Simulation::save_body(int b, Checkpoint& out) const {
 
 /// The map of the levels, and where the numbers of new points go on.
 void Simulation::save_levels(Checkpoint& out) const {
+  std::vector<double> ids;
+  for (const PointSize& size : step_->sizes()) ids.push_back(size.next_id);
+  if (makes_points()) out.blobs.push_back(numbers("levels/next_ids", std::move(ids)));
   if (scene_.grid.refine.empty()) return;
   std::vector<std::int64_t> map;
   for (const BlockKey& key : grid_.levels().refined()) {
@@ -125,12 +128,19 @@ void Simulation::save_levels(Checkpoint& out) const {
   }
   out.blobs.push_back(integers("levels/refined", std::move(map)));
   out.blobs.push_back(integers("levels/rules", refinement_->state()));
-  std::vector<double> ids;
-  for (const PointSize& size : step_->sizes()) ids.push_back(size.next_id);
-  out.blobs.push_back(numbers("levels/next_ids", std::move(ids)));
+}
+
+bool Simulation::makes_points() const {
+  return !scene_.grid.refine.empty() ||
+         scene_.method.numerical_fracture == NumericalFracture::split;
 }
 
 void Simulation::restore_levels(const Checkpoint& checkpoint) {
+  if (makes_points()) {
+    const auto& ids = demand(checkpoint, "levels/next_ids").doubles;
+    for (std::size_t b = 0; b < step_->sizes().size() && b < ids.size(); ++b)
+      step_->sizes()[b].next_id = ids[b];
+  }
   if (scene_.grid.refine.empty()) {
     if (checkpoint.find("levels/refined") != nullptr)
       throw InputError("checkpoint: it belongs to a scene with grid.refine");
@@ -146,9 +156,6 @@ void Simulation::restore_levels(const Checkpoint& checkpoint) {
   }
   grid_.set_levels(std::move(refined));
   refinement_->restore(demand(checkpoint, "levels/rules").integers);
-  const auto& ids = demand(checkpoint, "levels/next_ids").doubles;
-  for (std::size_t b = 0; b < step_->sizes().size() && b < ids.size(); ++b)
-    step_->sizes()[b].next_id = ids[b];
 }
 
 Checkpoint Simulation::save() const {

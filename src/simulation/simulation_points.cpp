@@ -7,6 +7,8 @@
 #include <map>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/ranks.hpp"
+#include "krater/kinematics/mpm/stretch.hpp"
 #include "krater/simulation/point_maker.hpp"
 #include "krater/simulation/refinement.hpp"
 #include "krater/simulation/simulation.hpp"
@@ -103,14 +105,33 @@ double Simulation::place_body(int b) {
     smallest = smallest > 0 ? std::min(smallest, m) : m;
   }
   // what splitting may still make of them
-  return smallest * std::pow(corner_count(geometry_.dimension), from - finest);
+  return smallest * std::pow(corner_count(geometry_.dimension), from - finest) *
+         (size.halves ? kLightest : 1);
+}
+
+/// Its points are cut where they are long (kinematics/mpm/stretch.hpp).
+bool Simulation::may_split(const Body& body) const {
+  if (scene_.method.numerical_fracture != NumericalFracture::split ||
+      !body.options().material_points() || body.options().rigid() || body.is_fluid())
+    return false;
+  if (!ranks::alone())
+    throw InputError(
+        "method.numerical_fracture: split cannot be computed on several ranks yet; start krater "
+        "without mpirun: it uses all cores of one machine");
+  for (int a = 0; a < geometry_.dimension; ++a)
+    if (body.options().points.per_direction[static_cast<std::size_t>(a)] < 2)
+      throw InputError(body.options().where +
+                       ": method.numerical_fracture: split needs two points per direction and "
+                       "cell or more, for points longer than 3/4 of a cell are split");
+  return true;
 }
 
 void Simulation::place_points() {
   std::vector<PointSize> sizes;
   for (const auto& body : bodies_)
     sizes.push_back({body->material().density, body->options().points.per_direction,
-                     scene_.frame == Frame::axisymmetric, scene_.method.stagger, 0});
+                     scene_.frame == Frame::axisymmetric, scene_.method.stagger, 0,
+                     may_split(*body)});
   step_->set_sizes(std::move(sizes));
   std::vector<MergePlan> plans;
   for (std::size_t b = 0; b < bodies_.size(); ++b)

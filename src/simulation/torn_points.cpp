@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "krater/kinematics/mpm/domain.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace krater {
@@ -14,9 +14,9 @@ namespace {
 
 /// A point and how far it is stretched.
 struct Stretched {
-  Triple place{}, longest{};  ///< F s_a e_a of the greatest share of the reach [m]
+  Triple place{}, longest{};  ///< the longest axis of its domain [m]
   Triple reach{};             ///< 2R - h along the grid axes [m]
-  double share = 0;           ///< of the longest over the reach
+  double share = 0;           ///< the greatest of one over the other
 };
 
 class BodyLook {
@@ -27,8 +27,7 @@ class BodyLook {
         dimension_{dimension(sim.scene().frame)},
         hoop_{sim.scene().frame == Frame::axisymmetric},
         x_{body_.slot(field::Position::info)},
-        m_{body_.slot(field::Mass::info)},
-        F_{body_.slot(field::DeformationGradient::info)},
+        domain_{body_.slot(field::Domain::info)},
         width_{body_.slot(field::HalfWidth::info)},
         failed_{body_.slot(field::Failed::info)} {}
 
@@ -37,19 +36,13 @@ class BodyLook {
     const auto value = [&](int slot) { return sim_.value(set, i, slot); };
     for (int a = 0; a < dimension_; ++a) out.place[index(a)] = value(x_ + a);
     if (failed_ >= 0 && value(failed_) != 0) return out;
-    const Triple spacing = spacing_of(set, i);
+    out.longest =
+        longest_half(domain_tensor(dimension_, [&](int k) { return value(domain_ + k); }));
     const double h = sim_.geometry_of(set).h;
-    for (int b = 0; b < dimension_; ++b) out.reach[index(b)] = reach(h, set, i, b);
-    for (int a = 0; a < dimension_; ++a) {
-      Triple d{};
-      double share = 0;
-      for (int b = 0; b < dimension_; ++b) {
-        d[index(b)] = value(F_ + 3 * row(b) + row(a)) * spacing[index(a)];
-        share = std::max(share, std::abs(d[index(b)]) / out.reach[index(b)]);
-      }
-      if (share <= out.share) continue;
-      out.share = share;
-      out.longest = d;
+    for (int b = 0; b < dimension_; ++b) {
+      out.longest[index(b)] *= 2;
+      out.reach[index(b)] = reach(h, set, i, b);
+      out.share = std::max(out.share, std::abs(out.longest[index(b)]) / out.reach[index(b)]);
     }
     return out;
   }
@@ -70,7 +63,6 @@ class BodyLook {
 
  private:
   static std::size_t index(int a) { return static_cast<std::size_t>(a); }
-  int row(int axis) const { return dimension_ == 2 ? 2 * axis : axis; }
 
   double reach(double h, int set, int i, int axis) const {
     switch (sim_.scene().method.shape) {
@@ -84,27 +76,11 @@ class BodyLook {
     return 2 * h;
   }
 
-  /// Spacings at the start: in proportion to those of the lattice, of the point's own volume.
-  Triple spacing_of(int set, int i) const {
-    const auto& per_direction = body_.options().points.per_direction;
-    double volume = sim_.value(set, i, m_) / body_.material().density, product = 1;
-    if (hoop_)
-      volume *= sim_.value(set, i, F_ + 4) / (2 * std::numbers::pi * sim_.value(set, i, x_));
-    Triple out{};
-    for (int a = 0; a < dimension_; ++a) {
-      out[index(a)] = 1.0 / per_direction[index(a)];
-      product *= out[index(a)];
-    }
-    const double scale = std::pow(volume / product, 1.0 / dimension_);
-    for (double& s : out) s *= scale;
-    return out;
-  }
-
   const Simulation& sim_;
   const Body& body_;
   int dimension_;
   bool hoop_;
-  int x_, m_, F_, width_, failed_;
+  int x_, domain_, width_, failed_;
 };
 
 /// Points of a body by cells, to be found by place.
@@ -154,7 +130,7 @@ class Places {
 
 bool watched(const Simulation& sim, int body) {
   const Body& b = *sim.bodies()[static_cast<std::size_t>(body)];
-  return sim.scene().method.numerical_fracture == NumericalFracture::watch &&
+  return sim.scene().method.numerical_fracture != NumericalFracture::ignore &&
          !b.options().rigid() && b.options().material_points() && !b.is_fluid();
 }
 

@@ -142,6 +142,7 @@ void watch(const Simulation& sim, Warnings& warnings) {
 
 void watch_points(const Simulation& sim, Warnings& warnings) {
   const TornPoints& points = sim.torn_points();
+  const bool splits = sim.scene().method.numerical_fracture == NumericalFracture::split;
   std::string where;
   for (std::size_t b = 0; b < points.torn_by_body.size(); ++b)
     if (points.torn_by_body[b] > 0)
@@ -150,9 +151,10 @@ void watch_points(const Simulation& sim, Warnings& warnings) {
   warnings.count(
       "numerical_fracture", static_cast<double>(points.torn), sim.time(),
       fmt::format("sound points have lost each other on the grid ({}; stretched to {:.2g} "
-                  "times its reach): what parts there is numerical, no law; smaller "
+                  "times its reach): what parts there is numerical, no law; {}smaller "
                   "cells, more points, elements or a law that fails before would tell",
-                  where, points.greatest_stretch));
+                  where, points.greatest_stretch,
+                  splits ? "" : "method.numerical_fracture: split, "));
 }
 
 void watch_elements(const Simulation& sim, Warnings& warnings) {

@@ -19,7 +19,9 @@ using namespace krater::test;
 std::string block(const std::string& velocity, const std::string& method,
                   const std::string& strength = "{von_mises: {Y: 1e3}}") {
   return "frame: plane_strain\ngrid: {cell: 1, box: {min: [-60, -60], max: [60, 60]}, boundary: "
-         "{x_min: open}}\ntime: {end: 1, energy_error: off}\nmethod: {" +
+         "{x_min: open}}\ntime: {end: 1, energy_error: off}\noutput: {fields: "
+         "[deformation_gradient]}\n"
+         "method: {" +
          method +
          "}\nmaterials: {soft: {density: 7850, youngs_modulus: 1e3, poisson_ratio: 0.3, eos: "
          "linear, strength: " +
@@ -117,13 +119,13 @@ TEST_SUITE("verification") {
     }
   }
 
-  TEST_CASE("unasked, no deformation gradient is kept and nothing is looked for") {
+  TEST_CASE("unasked, no domain is kept and nothing is looked for") {
     Run run = start_text(block("[0, 50*z]", "stagger: false"));
-    CHECK(run.sim->bodies()[0]->slot(field::DeformationGradient::info) < 0);
+    CHECK(run.sim->bodies()[0]->slot(field::Domain::info) < 0);
     run_to(run, 0.1);
     run.sim->look_for_torn_points();
     CHECK(run.sim->torn_points().stretched == 0);
     CHECK_THROWS_WITH(start_text(block("[0, 0]", "numerical_fracture: watch, reference: initial")),
-                      doctest::Contains("watch is for reference: current"));
+                      doctest::Contains("watch and split are for reference: current"));
   }
 }

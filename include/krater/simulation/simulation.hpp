@@ -95,6 +95,7 @@ class Simulation {
   /// nothing unless the scene asks.
   void look_for_torn_points();
   const TornPoints& torn_points() const { return torn_; }  ///< as last looked for
+  bool makes_points() const;                               ///< while it runs, by splitting
   /// Whether they lie on themselves, for a frame: it takes longer.
   void look_for_overlap();
   const MeshHealth& elements() const { return health_; }  ///< as last looked at
@@ -141,6 +142,7 @@ class Simulation {
  private:
   void plan_ranks();
   void advance(double until);
+  void fit_points();
   void assemble_together();
   void release();
   /// After a fault of points, which all ranks know of: text of the first, which has them all.
@@ -174,6 +176,7 @@ class Simulation {
   void restore_levels(const Checkpoint& checkpoint);
   void find_levels();
   void place_points();
+  bool may_split(const Body& body) const;
   double place_body(int body);  ///< smallest mass of a point that it may come to [kg]
   int coarsest_level(int body);
   void place_rigid_bodies();

@@ -6,18 +6,18 @@
 ///
 /// Two points share a node while they are less than 2R - h apart along every grid axis, R half the
 /// support of the shape function: h (linear), h + l_p (gimp), 3/2 h (quadratic B-spline). Points of
-/// a lattice with spacing s_a along the grid axes lie F s_a e_a apart (F the deformation gradient,
-/// s_a from mass and density at the start, about an axis by the area of the section), so
-///   stretch = max over a, b of |F_ba| s_a / (2R - h)_b
+/// a lattice lie as far apart as their domains are long (kinematics/mpm/domain.hpp), so with l_b
+/// the components of the longest axis
+///   stretch = max over b of |l_b| / (2R - h)_b
 /// above 1 says that a point no longer meets those that were next to it: at a pull of 2, 3 and 4 by
 /// two points to a cell for linear, uniform gimp and quadratic functions (Homel et al. 2016 on such
 /// fracture). It is torn when none has taken their place either: on one of its two sides along the
-/// longest F s_a e_a, further than a quarter of it or of the reach, there is no point of the body
+/// longest axis, further than a quarter of it or of the reach, there is no point of the body
 /// that shares a node, nor its own image in a plane that mirrors. So shear tears nothing, though it
 /// stretches: neighbours change. A point at a free end of its body counts once it is so stretched.
 ///
 /// Only sound points: not failed ones, not those of fluids, which bear no tension. Looked for at
-/// rows of the history and at frames. Off, no F is kept and nothing is asked.
+/// rows of the history and at frames. Off, no domain is kept and nothing is asked.
 #include <cstddef>
 #include <vector>
 

@@ -26,10 +26,8 @@ void declare_body(double density, Layout& layout) {
 void declare_points(const MethodOptions& m, const PointNeeds& needs, Layout& layout) {
   declare_body(needs.density, layout);
   if (carries_affine(m.transfer)) layout.state<field::AffineVelocity>(0, kMethod);
-  if (m.shape == Shape::gimp) {
-    layout.state<field::HalfWidth>(0, kMethod);
-    layout.state<field::Domain>(0, kMethod);
-  }
+  if (m.shape == Shape::gimp) layout.state<field::HalfWidth>(0, kMethod);
+  if (m.shape == Shape::gimp || needs.domain) layout.state<field::Domain>(0, kMethod);
   const bool fixed = m.reference != Reference::current;
   if (m.update == Update::musl || m.transfer == Transfer::xpic || fixed)
     layout.state<field::GridVelocity>(0, kMethod);

@@ -98,7 +98,8 @@ bool drop_idle(BlockGrid& grid) {
   return true;
 }
 
-/// Points that changed their level, in the order of their patches; whole or in parts.
+/// Points that changed their level, whole or in parts, and halves of long ones, in the order of
+/// their patches.
 std::vector<Arrival> find_arrivals(BlockGrid& grid, const BoundarySet& boundary,
                                    const std::vector<BodyKernelData>& bodies,
                                    std::vector<PointSize>& sizes, Delivered& out) {
@@ -174,8 +175,10 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
                   double ahead, Distribution* ranks) {
   const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
   Delivered out;
+  const bool any = std::any_of(grid.patches().begin(), grid.patches().end(),
+                               [](const Patch& p) { return !p.outbox.keys.empty(); });
   std::vector<Arrival> arrivals;
-  if (!grid.levels().single()) arrivals = find_arrivals(grid, boundary, bodies, sizes, out);
+  if (any) arrivals = find_arrivals(grid, boundary, bodies, sizes, out);
   Places missing;
   for (const Patch& patch : grid.patches())
     for (int s = 0; s < slots; ++s)

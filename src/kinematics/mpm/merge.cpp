@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "krater/kinematics/mpm/migrate.hpp"
+#include "krater/kinematics/mpm/stretch.hpp"
 #include "krater/points/ledger_fields.hpp"
 #include "krater/points/load_fields.hpp"
 
@@ -29,7 +30,7 @@ bool is_any(std::string_view name) {
 /// What has a rule of its own below.
 bool is_special(std::string_view name) {
   return is_any<field::Id, field::Position, field::Velocity, field::AffineVelocity, field::Mass,
-                field::Density, field::InternalEnergy>(name);
+                field::Density, field::InternalEnergy, field::Domain, field::HalfWidth>(name);
 }
 
 /// What the next step makes anew from the rest, or what is no property of the material.
@@ -98,6 +99,7 @@ class Merging {
   void merge_bin(std::span<int> group);
   void halve(std::span<int> group);
   bool close(std::span<const int> group) const;
+  bool stays_short(std::span<const int> group) const;
   void merge(std::span<const int> group);
   template <class Weight>
   double mean(std::span<const int> group, int place, const Weight& weight) const {
@@ -109,9 +111,11 @@ class Merging {
     return sum / weights;
   }
   Triple centre(std::span<const int> group) const;
+  DomainTensor domain(std::span<const int> group, const Triple& x) const;
   std::array<double, 9> affine(std::span<const int> group, const Triple& x, const Triple& v) const;
   double stretch(int i) const;
   void set_stretch(int i, double J);
+  void set_domain(int i, const DomainTensor& M);
 
   PointStore& points_;
   const GridGeometry& g_;
@@ -129,7 +133,7 @@ void Merging::merge_bin(std::span<int> group) {
   for (const int i : group) together += share(i);
   if (together < kLeast) return;
   if (together > kMost) return halve(group);
-  if (close(group)) merge(group);
+  if (close(group) && stays_short(group)) merge(group);
 }
 
 void Merging::halve(std::span<int> group) {
@@ -167,6 +171,14 @@ bool Merging::close(std::span<const int> group) const {
   return true;
 }
 
+/// Together they are no point that would be split again.
+bool Merging::stays_short(std::span<const int> group) const {
+  if (!size_.halves) return true;
+  const Triple half = longest_half(domain(group, centre(group)));
+  return half[0] * half[0] + half[1] * half[1] + half[2] * half[2] <=
+         kLongestHalf * kLongestHalf * g_.h * g_.h;
+}
+
 Triple Merging::centre(std::span<const int> group) const {
   Triple x{};
   for (int a = 0; a < g_.dimension; ++a) {
@@ -176,6 +188,21 @@ Triple Merging::centre(std::span<const int> group) const {
     });
   }
   return x;
+}
+
+/// Of all of them about x, by the theorem of parallel axes.
+DomainTensor Merging::domain(std::span<const int> group, const Triple& x) const {
+  DomainTensor out = DomainTensor::Zero();
+  double total = 0;
+  for (const int i : group) {
+    Eigen::Vector3d d = Eigen::Vector3d::Zero();
+    for (int a = 0; a < g_.dimension; ++a)
+      d[a] = points_.at(c_.position + kLanes * a, i) - x[static_cast<std::size_t>(a)];
+    const double share = size_.hoop ? mass(i) / points_.at(c_.position, i) : mass(i);
+    out += share * (domain_of(points_, c_, g_.dimension, i) + 3 * d * d.transpose());
+    total += share;
+  }
+  return out / total;
 }
 
 /// L with what keeps the angular momentum.
@@ -222,6 +249,14 @@ void Merging::set_stretch(int i, double J) {
         points_.at(c_.deformation + kLanes * (3 * row + k), i) *= factor;
 }
 
+void Merging::set_domain(int i, const DomainTensor& M) {
+  for (int a = 0; a < g_.dimension; ++a) {
+    if (c_.half_width >= 0) points_.at(c_.half_width + kLanes * a, i) = std::sqrt(M(a, a));
+    for (int b = a; b < g_.dimension; ++b)
+      points_.at(c_.domain + kLanes * domain_component(g_.dimension, a, b), i) = M(a, b);
+  }
+}
+
 /// The point of the lowest number takes what all of them have.
 void Merging::merge(std::span<const int> group) {
   const int dim = g_.dimension;
@@ -245,6 +280,8 @@ void Merging::merge(std::span<const int> group) {
   for (const MergePlan::Entry& e : plan_.entries)
     others.push_back(e.by_volume ? mean(group, e.place, by_volume) : mean(group, e.place, by_mass));
   const double e = c_.energy >= 0 ? mean(group, c_.energy, by_mass) : 0;
+  DomainTensor M = DomainTensor::Zero();
+  if (c_.domain >= 0) M = domain(group, x);
 
   const int kept = *std::min_element(group.begin(), group.end(), [&](int i, int j) {
     return points_.at(0, i) < points_.at(0, j);  // the id stands at the head
@@ -255,6 +292,7 @@ void Merging::merge(std::span<const int> group) {
   }
   for (int k = 0; c_.affine >= 0 && k < dim * dim; ++k)
     points_.at(c_.affine + kLanes * k, kept) = L[static_cast<std::size_t>(k)];
+  if (c_.domain >= 0) set_domain(kept, M);
   points_.at(c_.mass, kept) = m;
   points_.at(c_.density, kept) = m / V;
   for (std::size_t k = 0; k < others.size(); ++k)

@@ -4,6 +4,7 @@
 
 #include "krater/core/parallel.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
+#include "krater/kinematics/mpm/stretch.hpp"
 
 namespace krater {
 
@@ -71,6 +72,36 @@ void MpmStep::merge() {
     audit_.book_level(m.heat, m.unfelt);
     audit_.merged_points += m.points;
   }
+  lap(Phase::migrate);
+}
+
+void MpmStep::split_stretched() {
+  std::vector<std::vector<int>> found(grid_.patches().size());
+  for_each(found.size(), [&](std::size_t p) {
+    const Patch& patch = grid_.patches()[p];
+    const auto body = static_cast<std::size_t>(patch.body);
+    if (sizes_[body].halves)
+      found[p] = stretched_points(patch, grid_.geometry(patch.key.level), bodies_[body].columns,
+                                  sizes_[body]);
+  });
+  std::size_t all = 0;
+  for (std::size_t p = 0; p < found.size(); ++p) {  // one after the other: numbers go on
+    if (found[p].empty()) continue;
+    Patch& patch = grid_.patches()[p];
+    const auto body = static_cast<std::size_t>(patch.body);
+    const double heat = split_stretched_points(patch, grid_.levels(), bodies_[body].columns,
+                                               sizes_[body], found[p]);
+    audit_.book_level(heat, feels_no_energy(p) ? heat : 0);
+    all += found[p].size();
+  }
+  if (all == 0) return;
+  audit_.split_points += static_cast<double>(all);
+  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_);
+  book_delivered(delivered);
+  if (delivered.changed)
+    relink();
+  else
+    provide_memory();
   lap(Phase::migrate);
 }
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+
+#include <Eigen/LU>
 
 #include "krater/kinematics/mpm/migrate.hpp"
 
@@ -152,34 +155,30 @@ double turning(const Parts& parts, const std::vector<double>& record, const Poin
   return sum;
 }
 
-/// What the stagger has changed of the angular momentum, to the skew part of L.
-void keep_turning(const GridGeometry& g, const PointColumns& c, const Parts& plain,
-                  const Parts& staggered, const std::vector<double>& record,
-                  std::vector<double>& to) {
+/// To the skew part of L: what the motion of the parts about their centre adds to the angular
+/// momentum, beyond that of `plain` ones.
+void keep_turning(const GridGeometry& g, const PointColumns& c, const Parts* plain,
+                  const Parts& parts, const std::vector<double>& record, std::vector<double>& to) {
   const int dim = g.dimension;
   for (int a = 0; a < dim; ++a)
     for (int b = a + 1; b < dim; ++b) {
-      const double change =
-          turning(plain, record, c, dim, a, b) - turning(staggered, record, c, dim, a, b);
+      const double before = plain != nullptr ? turning(*plain, record, c, dim, a, b) : 0,
+                   change = before - turning(parts, record, c, dim, a, b);
       const double skew = change / (2 * Support::moment * g.h * g.h);
       entry(to, c.affine, dim * b + a) += skew;
       entry(to, c.affine, dim * a + b) -= skew;
     }
 }
 
-/// 2^dim points in the place of one.
-void split(const GridGeometry& g, const PointColumns& c, PointSize& size, const Way& way,
-           const Arrival& whole, std::vector<Arrival>& out) {
-  const int dim = g.dimension;
+/// Points in the place of one; all else of them is `as_all`.
+void make_parts(const PointColumns& c, PointSize& size, const Parts& parts, int dim,
+                const std::vector<double>& as_all, const Arrival& whole,
+                std::vector<Arrival>& out) {
   const std::vector<double>& record = whole.record;
-  const Parts parts = parts_of(g, c, size, way, record);
-  std::vector<double> affine_of = record;
-  if (way.stagger != 0 && way.moving && c.affine >= 0 && !size.hoop)
-    keep_turning(g, c, parts_of(g, c, size, {way.step}, record), parts, record, affine_of);
   for (std::size_t k = 0; k < parts.at.size(); ++k) {
     if (!(parts.share[k] > 0)) continue;
     Arrival part = whole;
-    part.record = affine_of;
+    part.record = as_all;
     for (int a = 0; a < dim; ++a) {
       const auto i = static_cast<std::size_t>(a);
       entry(part.record, c.position, a) += parts.at[k].now[i];
@@ -192,6 +191,53 @@ void split(const GridGeometry& g, const PointColumns& c, PointSize& size, const 
     if (k > 0) entry(part.record, 0) = size.next_id++;
     out.push_back(std::move(part));
   }
+}
+
+/// 2^dim points in the place of one.
+void split(const GridGeometry& g, const PointColumns& c, PointSize& size, const Way& way,
+           const Arrival& whole, std::vector<Arrival>& out) {
+  const std::vector<double>& record = whole.record;
+  const Parts parts = parts_of(g, c, size, way, record);
+  std::vector<double> as_all = record;
+  if (way.stagger != 0 && way.moving && c.affine >= 0 && !size.hoop) {
+    const Parts plain = parts_of(g, c, size, {way.step}, record);
+    keep_turning(g, c, &plain, parts, record, as_all);
+  }
+  for (int k = 0; c.domain >= 0 && k < 6; ++k) entry(as_all, c.domain, k) *= 0.25;
+  make_parts(c, size, parts, g.dimension, as_all, whole, out);
+}
+
+/// What the motion lost, to all parts alike.
+void share_heat(double heat, double m, const PointColumns& c, std::span<Arrival> parts) {
+  for (Arrival& part : parts)
+    if (c.energy >= 0)  // rigid bodies have none
+      entry(part.record, heat < 0 && c.carried >= 0 ? c.carried : c.energy) += heat / m;
+}
+
+/// d_0 = F^-1 d
+void undeform(Offsets& at, const std::vector<double>& record, const PointColumns& c, int dim) {
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  for (int a = 0; c.deformation >= 0 && a < dim; ++a)
+    for (int b = 0; b < dim; ++b)
+      F(a, b) = entry(record, c.deformation, dim == 2 ? 6 * a + 2 * b : 3 * a + b);
+  const Eigen::Matrix3d inverse = F.inverse();
+  for (Offset& d : at)
+    for (int a = 0; a < 3; ++a) {
+      double sum = 0;
+      for (int b = 0; b < 3; ++b) sum += inverse(a, b) * d.now[static_cast<std::size_t>(b)];
+      d.before[static_cast<std::size_t>(a)] = sum;
+    }
+}
+
+/// M of a half: without 3 q q^T, q the way from the point to it. So is the width of gimp's domain.
+void halve_domain(std::vector<double>& record, const PointColumns& c, const Triple& half, int dim) {
+  for (int a = 0; a < dim; ++a)
+    for (int b = a; b < dim; ++b)
+      entry(record, c.domain, domain_component(dim, a, b)) -=
+          0.75 * half[static_cast<std::size_t>(a)] * half[static_cast<std::size_t>(b)];
+  for (int a = 0; c.half_width >= 0 && a < dim; ++a)
+    entry(record, c.half_width, a) =
+        std::sqrt(std::max(0.0, entry(record, c.domain, domain_component(dim, a, a))));
 }
 
 }  // namespace
@@ -279,11 +325,33 @@ double arrive(const Levels& levels, const PointColumns& c, PointSize& size, int 
     after += kinetic_of(part.record, c, levels.geometry(part.key.level).h, dim);
   }
   const double heat = half_width == nullptr && c.energy >= 0 ? before - after : 0;
-  for (Arrival& part : parts) {
-    if (c.energy >= 0)  // rigid bodies have none
-      entry(part.record, heat < 0 && c.carried >= 0 ? c.carried : c.energy) += heat / m;
-    out.push_back(std::move(part));
+  share_heat(heat, m, c, parts);
+  for (Arrival& part : parts) out.push_back(std::move(part));
+  return heat;
+}
+
+double halve(const GridGeometry& g, const PointColumns& c, PointSize& size, const Arrival& whole,
+             const Triple& half, std::vector<Arrival>& out) {
+  const int dim = g.dimension;
+  const std::vector<double>& record = whole.record;
+  Parts parts;
+  parts.at.resize(2);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
+    parts.at[0].now[a] = -0.5 * half[a];
+    parts.at[1].now[a] = 0.5 * half[a];
   }
+  keep_inside(parts.at, record, c, g);
+  undeform(parts.at, record, c, dim);
+  parts.weigh(entry(record, c.position), size.hoop);
+  std::vector<double> as_all = record;
+  if (c.affine >= 0 && !size.hoop) keep_turning(g, c, nullptr, parts, record, as_all);
+  halve_domain(as_all, c, half, dim);
+  const std::size_t first = out.size();
+  make_parts(c, size, parts, dim, as_all, whole, out);
+  const std::span<Arrival> halves{out.begin() + static_cast<std::ptrdiff_t>(first), out.end()};
+  double heat = kinetic_of(record, c, g.h, dim);
+  for (const Arrival& part : halves) heat -= kinetic_of(part.record, c, g.h, dim);
+  share_heat(heat, entry(record, c.mass), c, halves);
   return heat;
 }
 

@@ -203,8 +203,9 @@ const BlockInfo& method_block() {
         "0.5"},
        {"dormant_blocks", "blocks in which nothing moves are passed over", {flag()}, "true"},
        {"numerical_fracture",
-        "whether it is watched where sound points lose each other on the grid",
-        {word({"ignore", "watch"})},
+        "whether it is watched where sound points lose each other on the grid, or points are split "
+        "along their stretch before they do",
+        {word({"ignore", "watch", "split"})},
         "ignore"}}};
   return info;
 }

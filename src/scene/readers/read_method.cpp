@@ -134,14 +134,17 @@ Node read_method(const Node* node, Reading& reading) {
   method.flip_fraction = block.number("flip_fraction");
   method.energy_alpha = block.number("energy_alpha");
   method.dormant_blocks = block.flag("dormant_blocks", method.dormant_blocks);
-  method.numerical_fracture = block.choice<NumericalFracture>(
-      "numerical_fracture",
-      {{"ignore", NumericalFracture::ignore}, {"watch", NumericalFracture::watch}},
-      method.numerical_fracture);
-  if (method.numerical_fracture == NumericalFracture::watch &&
+  method.numerical_fracture =
+      block.choice<NumericalFracture>("numerical_fracture",
+                                      {{"ignore", NumericalFracture::ignore},
+                                       {"watch", NumericalFracture::watch},
+                                       {"split", NumericalFracture::split}},
+                                      method.numerical_fracture);
+  if (method.numerical_fracture != NumericalFracture::ignore &&
       method.reference != Reference::current)
     block.fail(*block.find("numerical_fracture"),
-               "watch is for reference: current; on another one points keep the neighbours of the "
+               "watch and split are for reference: current; on another one points keep the "
+               "neighbours of the "
                "reference, however far they are stretched");
   return block.finish();
 }

@@ -116,11 +116,9 @@ std::string what_is_not_ready(const Scene& scene) {
 
 void read_refine(Block& grid, Reading& reading) {
   const Node* list = grid.find_block("refine");
-  if (list == nullptr) {
-    if (const Node* merge = grid.find("merge"))
-      grid.fail(*merge, "points come from finer cells only with grid.refine, which is not given");
-    return;
-  }
+  if (list != nullptr || grid.find("merge") != nullptr)
+    reading.scene.grid.merge = grid.flag("merge", false);
+  if (list == nullptr) return;
   if (list->kind != Node::Kind::list) {
     grid.fail(*list, std::string{"expected "} + kExample);
     return;
@@ -129,10 +127,6 @@ void read_refine(Block& grid, Reading& reading) {
   for (std::size_t i = 0; i < list->items.size(); ++i)
     reading.scene.grid.refine.push_back(read_rule(list->items[i], reading, resolved[i]));
   grid.record("refine", list_node(resolved));
-  const Node* merge = grid.find("merge");
-  reading.scene.grid.merge = grid.flag("merge", false);
-  if (reading.scene.grid.merge && reading.scene.grid.refine.empty())
-    grid.fail(*merge, "points come from finer cells only where grid.refine makes some");
 }
 
 /// Rules that lie in one another count once each for what they add to the rule around them.
@@ -166,6 +160,13 @@ double points_of_levels(const BodyOptions& body, const Scene& scene, double per_
 
 void check_refine(Reading& reading) {
   Scene& scene = reading.scene;
+  if (scene.grid.merge && scene.grid.refine.empty() &&
+      scene.method.numerical_fracture != NumericalFracture::split) {
+    const Node& merge = *reading.root.find("grid")->find("merge");
+    reading.problems.add(merge.file, merge.line, "grid.merge",
+                         "more points than cells need come from finer ones (grid.refine) or from "
+                         "method.numerical_fracture: split, and neither is given");
+  }
   if (scene.grid.refine.empty()) return;
   if (const std::string text = what_is_not_ready(scene); !text.empty())
     refuse(scene.grid.refine.front(), text, reading);

@@ -18,6 +18,7 @@ struct PointNeeds {
   bool walls = false;               ///< some side is a unilateral wall
   bool reference_position = false;  ///< asked for by output
   bool deformation = false;         ///< F asked for by output
+  bool domain = false;              ///< its tensor, by whatever shape
 };
 
 void declare_points(const MethodOptions& method, const PointNeeds& needs, Layout& layout);

@@ -15,6 +15,9 @@
 /// about an axis there is none to keep. Kinetic energy with its affine part becomes heat; what is
 /// missing is a debt, as where points split.
 ///
+/// Tensors of domains sum up by the theorem of parallel axes (kinematics/mpm/domain.hpp); where
+/// long points are split (kinematics/mpm/stretch.hpp), none become one that would be split again.
+///
 /// The points' histories must be close: their spread up to a tenth of the greatest in the group,
 /// and a twentieth of the greatest in the block; 0.05 more where a history counts from 0 to 1
 /// (plastic strain, damage, `failed`). Points of one lattice that was split are; across a shear

@@ -107,6 +107,8 @@ class MpmStep final : public Kinematics {
   void set_merge_plans(std::vector<MergePlan> by_body) { merge_plans_ = std::move(by_body); }
   /// Where blocks away from the edges of their level are crowded.
   void merge();
+  /// Points that are too long for their cells, in halves (kinematics/mpm/stretch.hpp).
+  void split_stretched();
   /// After a fault: points under way between blocks go where they belong.
   void deliver_leavers() { deliver(grid_, boundary_, bodies_, sizes_, 0, ranks_); }
   /// Speeds up to 1e-16 of this are rest: part of the scheme, whether blocks may be dormant or not.

@@ -8,8 +8,9 @@ enum class Shape { quadratic_bspline, gimp, linear };
 enum class Transfer { tflip, flip, apic, xpic };
 enum class Update { usl, musl, usf };
 enum class Reference { current, initial, adaptive };
-enum class NumericalFracture { ignore, watch };  ///< simulation/torn_points.hpp
-enum class GridPressure { fluids, none, all };   ///< bodies of mpm/grid_pressure.hpp
+/// Watched: simulation/torn_points.hpp; points split against it: kinematics/mpm/stretch.hpp.
+enum class NumericalFracture { ignore, watch, split };
+enum class GridPressure { fluids, none, all };  ///< bodies of mpm/grid_pressure.hpp
 
 struct MethodOptions {
   Shape shape = Shape::quadratic_bspline;

@@ -22,6 +22,8 @@
 ///   h^2/4 (L_ba - L_ab) + sum w [d_a (L d)_b - d_b (L d)_a]:
 /// it is what it would be without.
 ///
+/// Of a tensor of the domain (kinematics/mpm/domain.hpp) each part has a quarter.
+///
 /// Kinetic energy with its affine part (h_l^2/4 per axis, as all sums count it) is one of the
 /// level. Where a point changes it, whole or in parts,
 ///   -dT = m/2 L:L (h_from^2 - h_to^2)/4 - m/2 sum w |L (d - sum w d)|^2
@@ -33,6 +35,7 @@
 
 #include "krater/contact/options.hpp"
 #include "krater/grid/levels.hpp"
+#include "krater/kinematics/mpm/domain.hpp"
 #include "krater/points/columns.hpp"
 
 namespace krater {
@@ -44,6 +47,7 @@ struct PointSize {
   bool hoop = false;                          ///< masses are those of the full revolution
   bool stagger = false;                       ///< of the lattice
   double next_id = 0;                         ///< of the next point that splitting makes
+  bool halves = false;                        ///< long points are cut (kinematics/mpm/stretch.hpp)
   double mass(const GridGeometry& geometry, double r) const;
 };
 
@@ -64,5 +68,10 @@ bool will_split(const Levels& levels, const PointColumns& columns, const PointSi
 /// the space that the point fills, at the start, when nothing becomes heat; by its size otherwise.
 double arrive(const Levels& levels, const PointColumns& columns, PointSize& size, int from,
               Arrival point, std::vector<Arrival>& out, const Triple* half_width = nullptr);
+
+/// Adds the two halves of a point in cells of `g`, cut across the axis of which `half` is half, as
+/// kinematics/mpm/stretch.hpp says; returns what became heat [J].
+double halve(const GridGeometry& g, const PointColumns& columns, PointSize& size,
+             const Arrival& whole, const Triple& half, std::vector<Arrival>& out);
 
 }  // namespace krater

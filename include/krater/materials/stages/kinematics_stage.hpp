@@ -4,6 +4,7 @@
 ///   j = det f,  j_bar = j (1 + a/2)/(1 - a/2) with a the extra dilatation of cell averaging,
 ///   rho_{n+1} = rho_n / j_bar,  H = (f - I)[(f + I)/2]^-1.
 /// The strain of a step is sym H, never sym(dt L): a spinning body would drift.
+/// The tensor M of a point's domain (kinematics/mpm/domain.hpp) is carried here too: f M f^T.
 /// rho, v and tr D use the averaged volume change; the deviator uses the plain f.
 #pragma once
 
@@ -43,8 +44,9 @@ KRATER_FORCE_INLINE Mat3<Real> advance_deformation(const Mat3<Real>& dtL, const 
           F.yz + d.yz, F.zx + d.zx, F.zy + d.zy, F.zz + d.zz};
 }
 
-/// `tracks_F`: the deformation gradient is a column of this body.
-template <bool tracks_F>
+/// `tracks_F`: the deformation gradient is a column of this body; `tracks_M`: the domain is one,
+/// and the gather does not carry it.
+template <bool tracks_F, bool tracks_M>
 class KinematicsStage final : public Stage {
  public:
   explicit KinematicsStage(Layout& layout)
@@ -55,7 +57,8 @@ class KinematicsStage final : public Stage {
         rate_{layout.local_output<field::DilatationRate>("kinematics")},
         work_{layout.local_output<field::SpecificWork>("kinematics")},
         rho_{layout.state<field::Density>(0.0, "kinematics")},
-        F_{tracks_F ? layout.state<field::DeformationGradient>(0.0, "kinematics").offset : -1} {}
+        F_{tracks_F ? layout.state<field::DeformationGradient>(0.0, "kinematics").offset : -1},
+        M_{tracks_M ? layout.state<field::Domain>(0.0, "kinematics").offset : -1} {}
 
   void apply(const BatchData& batch) const override {
     const auto dtL_p = view(batch, dtL_);
@@ -83,6 +86,11 @@ class KinematicsStage final : public Stage {
         const auto F_p = view(batch, F_);
         store_mat3(F_p, g, advance_deformation(dtL, load_mat3(F_p, g)));
       }
+      if constexpr (tracks_M) {
+        const auto M_p = view(batch, M_);
+        const Sym3<Pack> M = load_sym3(M_p, g);
+        store_sym3(M_p, g, M + push_forward_change(dtL, M));
+      }
     }
   }
 
@@ -95,6 +103,7 @@ class KinematicsStage final : public Stage {
   LocalOutput<field::SpecificWork> work_;
   State<field::Density> rho_;
   State<field::DeformationGradient> F_;
+  State<field::Domain> M_;
 };
 
 }  // namespace krater::inline KRATER_ISA
