@@ -237,6 +237,25 @@ TEST_SUITE("unit") {
     CHECK(block.patch.outbox.used == 0);
   }
 
+  TEST_CASE("stretch: parts for finer cells have a quarter of the tensor") {
+    Block block{2};
+    block.levels.set({{{0, 0, 0}, 0}});
+    const int whole = block.add({3, 3, 0}, 0.3);
+    const DomainTensor M = domain_of(block.patch.points, block.c, 2, whole);
+    Arrival point;
+    block.patch.points.copy_out(whole, point.record);
+    point.key = block.levels.block_at(point.record.data() + block.c.position / kLanes);
+    std::vector<Arrival> parts;
+    arrive(block.levels, block.c, block.size, 0, point, parts);
+    REQUIRE(parts.size() == 4);
+    for (const Arrival& part : parts) {
+      const DomainTensor left = domain_tensor(2, [&](int k) {
+        return part.record[static_cast<std::size_t>(block.c.domain / kLanes + k)];
+      });
+      CHECK((left - 0.25 * M).norm() < 1e-15);
+    }
+  }
+
   TEST_CASE("stretch: halves become one again, unless that would be cut again") {
     for (const double length : {0.37, 0.38}) {
       Block block{2};
