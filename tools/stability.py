@@ -7,6 +7,9 @@ points that stand still; where it grows by more than 1 % a step, the step is too
 
   interior   points of one cell, periodic with the phase exp(i theta) from cell to cell
   free       a block of three cells with free sides, at several places between the nodes
+  threads    two to six points in a line, anyhow between the nodes, about what a point bears by itself: the highest frequency
+             of all is at most that of the stiffest part with its share of the masses, sum_a g_a c^2 with g_a = sum (S')^2/S
+             <= 6/h^2, so c dt/h = 1/sqrt(1.5 dim); by eigenvalues
   moving     as interior, while points and grid pass each other by v dt a step
 
 Linear viscosity Q = Qv/c_L damps in compression only; `always` damps in tension too, as within a steady compression.
@@ -143,6 +146,29 @@ def free(dim, shear, viscosity, always=False):
     return min(limit(Points(x, 0.5 ** dim, shear, viscosity, always)) for x in blocks)
 
 
+def radius(points, dt):
+    """Spectral radius of a step."""
+    shapes = [(points.dim, points.count), (points.dim, points.dim, points.count), (points.count,), (points.count,),
+              (points.dim, points.dim, points.count)]
+    ends = np.cumsum([np.prod(shape) for shape in shapes])
+    parts = [part.reshape(shape + (ends[-1],)) for part, shape in zip(np.split(np.eye(ends[-1]), ends[:-1]), shapes)]
+    return np.abs(np.linalg.eigvals(np.concatenate([out.reshape(-1, ends[-1]) for out in points.step(parts, dt)]))).max()
+
+
+def threads(dim, shear, viscosity, tried=40):
+    """Least limit of threads, and that over what a point bears by itself."""
+    rng, least = np.random.default_rng(3), 9.0
+    for k in range(tried):
+        along = rng.standard_normal(dim)
+        x = 10 + rng.random(dim) + np.outer(np.arange(2 + k % 5) * rng.uniform(0.3, 0.9), along / np.linalg.norm(along))
+        points, low, high = Points(x, 0.5 ** dim, shear, viscosity, True), 0.2, 1.6
+        while high - low > 0.01:
+            middle = (low + high) / 2
+            low, high = (low, middle) if radius(points, middle) > 1 + GROWTH / 2 else (middle, high)
+        least = min(least, low)
+    return least, least * np.sqrt(1.5 * dim * (1 - 4 * shear / 3))
+
+
 def moving(dt, travel):
     """Greatest growth of a lattice of two points per cell along which the grid passes."""
     worst = -1.0
@@ -173,6 +199,9 @@ def main():
         for shear in (0.23, 0.0):
             print(f"free block, {dim} dimensions, G/(rho c_L^2) = {shear}: {free(dim, shear, 0):.2f}; Q = 0.25: "
                   f"{free(dim, shear, 0.25):.2f}, always {free(dim, shear, 0.25, True):.2f}", flush=True)
+    for dim, shear, viscosity in itertools.product((2, 3), (0.33, 0.23, 0.0), (0, 0.1)):
+        print(f"threads, {dim} dimensions, G/(rho c_L^2) = {shear}, always damped by Q = {viscosity}: "
+              "{:.2f}, of the bound {:.2f}".format(*threads(dim, shear, viscosity)), flush=True)
     for dt in (0.9, 1.0, 1.2):
         print(f"moving, c dt/h = {dt}: " + ", ".join(f"v dt/h = {t}: {moving(dt, t):+.3f}" for t in (0.1, 0.5, 0.9)))
 

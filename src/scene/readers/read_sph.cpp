@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "krater/materials/catalogue.hpp"
 #include "scene/readers/readers.hpp"
 
 namespace krater::scene {
@@ -10,6 +11,13 @@ namespace {
 
 constexpr int kMostPerCell = 8;
 constexpr double kLeastSmoothing = 1, kMostSmoothing = 2;
+
+/// A gas, or the products of an explosive: its energy is heat, and it expands without end.
+bool expands(const MaterialOptions& m) {
+  if (!m.eos || m.strength || m.model) return false;
+  const MaterialConstants constants{m.density, m.shear_modulus, m.initial_temperature};
+  return thermal_energy_at_start(m.eos->law, m.eos->values.data(), constants).has_value();
+}
 
 }  // namespace
 
@@ -61,6 +69,11 @@ void check_particles_of(const BodyOptions& body, const Node& node, Reading& read
     fail(node,
          "keeps its failed particles: use failure: {action: strength_loss} in its material, or "
          "kinematics: mpm");
+  if (body.sph->reference == SphReference::initial && body.material >= 0 &&
+      expands(scene.materials[static_cast<std::size_t>(body.material)]))
+    fail(*node.find("kinematics"),
+         "of a gas has no use for sph: {reference: initial}: it keeps the neighbours of the start, "
+         "which an expansion parts; use reference: current, or kinematics: mpm");
   if (body.rigid()) fail(*node.find("rigid"), "cannot be rigid: leave one of the two out");
 }
 

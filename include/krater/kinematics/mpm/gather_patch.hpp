@@ -90,6 +90,9 @@ void gather_nodes(GatherPass& pass) {
     }
     if constexpr (T::strain) {
       trace = store_gradient<Frame, Configuration, T::ended>(view, n, alone.lone, s, g);
+      if (D == 3 && any(alone.thread))
+        note_limit(patch.result, thread_rate<D>(view, alone.thread, grid.inv_h, g), 0, g,
+                   first_lanes(patch.points.count() - kLanes * g));
       view.extra_dilatation.set(g, trace);  // tr L for now, see average_dilatation()
       if constexpr (Shape::has_width && !Configuration::fixed) carry_domain<D>(view, g);
     }

@@ -5,15 +5,23 @@
 /// point carries no L to the grid and does not strain with it: alone its own pressure would expand
 /// it for ever. A failed one, which no tension holds, needs more company to carry L: two on their
 /// own would still expand (a = 0.4).
+///
+/// Threads. A point among few others strains in all directions against nodes that are its own:
+/// omega^2 <= sum_a g_a c^2, g_a = sum (S')^2/S <= 6/h^2, whatever its neighbours do (the highest
+/// frequency of a sum of parts is at most that of the stiffest part with its share of the masses).
+/// So dt <= h/(c sqrt(1.5 dim)) is stable anywhere, which only threads need: a free block takes
+/// (12.1), and threads in the plane take it too (tools/stability.py).
 #include "krater/kinematics/mpm/gather_views.hpp"
 
 namespace krater::inline KRATER_ISA {
 
 /// Shares of the mass it sees from which a point does not strain, and from which it carries no L.
 inline constexpr double kAlone = 0.9, kCrowd = 0.4;
+/// The same, from which a point is of a thread: corners of blocks, bars and sheets stay below.
+inline constexpr double kThread = 0.25;
 
 struct Alone {
-  Mask lone, silent;
+  Mask lone, silent, thread;
 };
 template <int Dim>
 KRATER_FORCE_INLINE Alone alone_points(const GatherViews& view, const PointSums<Dim>& n,
@@ -26,7 +34,15 @@ KRATER_FORCE_INLINE Alone alone_points(const GatherViews& view, const PointSums<
     own = own * squares;
   }
   const Pack crowd = select(view.failed(g) > Pack(0.5), Pack(kCrowd), Pack(kAlone));
-  return {own > kAlone * n.V[3], own > crowd * n.V[3]};
+  const Mask lone = own > kAlone * n.V[3];
+  return {lone, own > crowd * n.V[3], (own > kThread * n.V[3]) & !lone};
+}
+
+/// The rate h/dt of a thread's points that bear something [1/s].
+template <int Dim>
+KRATER_FORCE_INLINE Pack thread_rate(const GatherViews& view, Mask thread, double inv_h, int g) {
+  const Mask open = (view.failed(g) > Pack(0.5)) & !(view.pressure(g) > Pack(0.0));
+  return select(thread & !open, view.sound_speed(g) * (std::sqrt(1.5 * Dim) * inv_h), Pack(0.0));
 }
 
 /// How a lone point follows its tension: L of it, in place of that of the grid, which moves as the
