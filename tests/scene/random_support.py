@@ -34,6 +34,7 @@ METHODS = [
     {"shape": "gimp", "transfer": "apic"}, {"shape": "linear", "update": "musl", "transfer": "flip"},
     {"points_per_direction": 3}, {"jitter": 0.2}, {"stagger": False}, {"cell_averaging": False}, {"reference": "initial"},
     {"reference": "adaptive"}]
+LINEAR = ["armco_iron", "weldox_460e", "s7_tool_steel"]  # cards whose pressure is linear, for the bar that they were made of
 AXES = {"axisymmetric": "rz", "plane_strain": "xz", "3d": "xyz"}
 
 
@@ -121,7 +122,7 @@ def calm(m):
         m["strength"] = {"von_mises": {"Y": 2e8, "H": 0}}
     if "eos" in m or "card" in m:
         m["viscosity"] = {}
-    if "linear" in m.get("eos", {}):
+    if "linear" in m.get("eos", {}) or m.get("card") in LINEAR:
         m["eos"] = SHOCK
     if "neo_hookean" in m.get("strength", {}):  # has no heat
         m.update({"eos": WATER, "strength": {"von_mises": {"Y": 1e7, "H": 0}}, "viscosity": {}})

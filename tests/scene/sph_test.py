@@ -34,8 +34,8 @@ REFUSED = {
     "a rigid body": (["bodies.rod.rigid=free"], "cannot be rigid"),
     "the method's reference": (["method.reference=initial"], "sph: {reference: initial}"),
     "a gas on its first neighbours":
-        (["materials.copper={density: 1630, eos: {jwl: {A: 371 GPa, B: 3.2 GPa, R1: 4.15, R2: 0.95, omega: 0.3, E0: 7 GPa}}}",
-          "bodies.rod.kinematics={sph: {reference: initial}}"], "of a gas has no use for"),
+        (["materials.gas={density: 1630, eos: {jwl: {A: 371 GPa, B: 3.2 GPa, R1: 4.15, R2: 0.95, omega: 0.3, E0: 7 GPa}}}",
+          "bodies.rod.material=gas", "bodies.rod.kinematics={sph: {reference: initial}}"], "of a gas has no use for"),
     "a load on no particle": (["loads={push: {body: rod, face: z_max, pressure: 1 GPa, where: {x_min: 9 mm}}}"],
                               "nothing to act on"),
     "another body without contact":
