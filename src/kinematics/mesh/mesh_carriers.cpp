@@ -5,13 +5,15 @@
 #include <numbers>
 
 #include "kinematics/mesh/carriers.hpp"
+#include "krater/core/parallel.hpp"
 
 namespace krater {
 
 namespace {
 
-constexpr std::size_t kRoom = 512;  // nodes of the box per carrier, and no more
-constexpr double kReach = 3;        // cells: bodies further apart cannot meet in a step
+constexpr std::size_t kRoom = 512;   // nodes of the box per carrier, and no more
+constexpr double kReach = 3;         // cells: bodies further apart cannot meet in a step
+constexpr std::size_t kChunk = 256;  // faces that are looked at as one first
 
 Triple place_of(const MeshNodes& nodes, std::int32_t n) {
   const double* x = nodes.records + kNode * static_cast<std::size_t>(n);
@@ -64,11 +66,23 @@ std::vector<Bounds> bounds_of_points(const BlockGrid& grid, int bodies) {
 /// Samples of the faces that another body may touch.
 void MeshContact::find_carriers() {
   const std::size_t meshes = bodies_.size();
+  const auto hold = [&](std::size_t b, const Face& face, Bounds& out) {
+    for (const std::int32_t n : face)
+      if (n >= 0) out.hold(place_of(bodies_[b], n));
+  };
   std::vector<Bounds> bounds(meshes);
-  for (std::size_t b = 0; b < meshes; ++b)
-    for (const auto& face : faces_[b])
-      for (const std::int32_t n : face)
-        if (n >= 0) bounds[b].hold(place_of(bodies_[b], n));
+  std::vector<std::vector<Bounds>> of_chunks(meshes);
+  for (std::size_t b = 0; b < meshes; ++b) {
+    of_chunks[b].resize((faces_[b].size() + kChunk - 1) / kChunk);
+    for_each(of_chunks[b].size(), [&](std::size_t c) {
+      for (std::size_t f = kChunk * c; f < faces_[b].size() && f < kChunk * (c + 1); ++f)
+        hold(b, faces_[b][f], of_chunks[b][c]);
+    });
+    for (const Bounds& chunk : of_chunks[b]) {
+      bounds[b].hold(chunk.low);
+      bounds[b].hold(chunk.high);
+    }
+  }
   const double within = kReach * cell_;
   of_points_.clear();
   const std::vector<Bounds> points = bounds_of_points(parts_.grid, options_.fields);
@@ -82,14 +96,18 @@ void MeshContact::find_carriers() {
     std::vector<Bounds> others;
     for (std::size_t o = 0; o < bounds.size(); ++o)
       if (o != b && bounds[b].meets(bounds[o], within)) others.push_back(bounds[o]);
-    if (others.empty()) continue;
-    for (const auto& face : faces_[b]) {
+    const auto near = [&](const Bounds& of) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const Bounds& o) { return of.meets(o, within); });
+    };
+    for (std::size_t f = 0; f < faces_[b].size(); ++f) {
+      if (f % kChunk == 0 && !near(of_chunks[b][f / kChunk])) {
+        f += kChunk - 1;
+        continue;
+      }
       Bounds of_face;
-      for (const std::int32_t n : face)
-        if (n >= 0) of_face.hold(place_of(bodies_[b], n));
-      if (std::any_of(others.begin(), others.end(),
-                      [&](const Bounds& o) { return of_face.meets(o, within); }))
-        sample(bodies_[b], b, face);
+      hold(b, faces_[b][f], of_face);
+      if (near(of_face)) sample(bodies_[b], b, faces_[b][f]);
     }
   }
 }
