@@ -11,13 +11,6 @@ namespace krater::inline KRATER_ISA {
 
 namespace {
 
-/// Whether the pressure of this matter knows its energy.
-template <class Matter>
-bool feels_energy(const Matter& law) {
-  const double rho = 1.2 * law.rho0;  // where a law of tension alone would differ
-  return split_at(law, rho, 1.0 / rho, energy_at_start(law)).thermal > 0.0;
-}
-
 /// A law whose gamma0 may be zero and is: its stage books the work as that of a barotropic law
 /// does, for all the energy of matter without a heat floor is held against it (Audit::unfelt). A
 /// type of its own, so that no other scene pays for the sum.
@@ -94,10 +87,10 @@ Stage* make_burn(int eos, const double* values, const MaterialConstants& constan
   });
 }
 
-Stage* make_heat_floor(int eos, const double* values, const MaterialConstants& constants,
+Stage* make_heat_floor(int law, const double* values, const MaterialConstants& constants,
                        Layout& layout) {
-  return stage_of(AllLaws{}, eos, [&]<class Law>() -> Stage* {
-    if constexpr (Law::family == Family::eos) {
+  return stage_of(AllLaws{}, law, [&]<class Law>() -> Stage* {
+    if constexpr (Law::family == Family::eos || requires(const Law& one) { one.solid; }) {
       return make_floor_of(matter_of(make_law<Law>(values, constants)), layout);
     } else {
       return nullptr;

@@ -149,8 +149,9 @@ void Body::add_stages(const StageFactory& factory) {
   degrades_ = degrades_stress(plan);
   stages_ = make_stages(factory, plan, layout_);
   for (const NamedStage& s : stages_) stage_pointers_.push_back(s.stage.get());
-  if (plan.eos.law >= 0)
-    heat_floor_.reset(factory.heat_floor(plan.eos.law, plan.eos.values, plan.constants, layout_));
+  const PlannedLaw& matter = plan.model.law >= 0 ? plan.model : plan.eos;
+  if (matter.law >= 0)
+    heat_floor_.reset(factory.heat_floor(matter.law, matter.values, plan.constants, layout_));
 }
 
 BodyKernelData Body::kernel_data() const {

@@ -186,4 +186,25 @@ TEST_SUITE("verification") {
       }
     }
   }
+
+  TEST_CASE("numerical heat: concrete whose pressure knows its energy has none") {
+    // A block of a few cells that a wall stops; of rht only the solid's B0 and B1 tell.
+    const std::string scene =
+        "frame: plane_strain\ngrid: {cell: 1 mm, box: {min: [0, 0], max: [12 mm, 12 mm]}, "
+        "boundary: {z_min: wall}}\ntime: {end: 4 us, energy_error: off}\nmaterials: {m: {card: "
+        "concrete_c30_37_rht, viscosity: {}}}\nbodies: {b: {material: m, shape: {box: {min: [3 mm, "
+        "-1 m, 0], max: [9 mm, 1 m, 6 mm]}}, velocity: [0, -400]}}\n";
+    for (const bool knows : {true, false}) {
+      Run run = start_text(
+          scene, knows ? Overrides{}
+                       : Overrides{"materials.m.model.rht.B0=0", "materials.m.model.rht.B1=0"});
+      run_to(run, 4e-6);
+      const Audit& audit = run.sim->audit();
+      CHECK(std::abs(energy_residual(run)) < 1e-12 * audit.peak_energy);
+      if (knows)
+        CHECK(audit.numerical_heat == 0);
+      else
+        CHECK(audit.numerical_heat > 0.01 * audit.peak_energy);
+    }
+  }
 }

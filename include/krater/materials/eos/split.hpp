@@ -101,4 +101,15 @@ KRATER_FORCE_INLINE double pressure_at_start(const Law& law) {
   return pressure_at(at_start(law), law.rho0, 1.0 / law.rho0, energy_at_start(law));
 }
 
+/// Whether the pressure of this matter knows its energy; that of most models does not.
+template <class Matter>
+bool feels_energy(const Matter& law) {
+  if constexpr (LinearInEnergy<Matter> || requires { law.tangent(1.0, 1.0, 0.0); }) {
+    const double rho = 1.2 * law.rho0;  // where a law of tension alone would differ
+    return split_at(law, rho, 1.0 / rho, energy_at_start(law)).thermal > 0.0;
+  } else {
+    return false;
+  }
+}
+
 }  // namespace krater::inline KRATER_ISA

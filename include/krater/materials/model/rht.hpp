@@ -122,7 +122,8 @@ struct Rht {
     K = A1 / alpha0;
     c0 = std::sqrt(K / rho0);
     surfaces = {A, n, f_s, f_t, Q0, B, g_c, g_t, A_f, n_f};
-    solid = {A1, A2, A3, B0, B1, T1, T2, alpha0 * rho0};
+    const double solid_density = alpha0 * rho0;
+    solid = {A1, A2, A3, B0, B1, T1, T2, solid_density, std::sqrt(A1 / solid_density)};
     pores = {elastic_pressure, compaction_pressure, exponent, alpha0};
     p_t = surfaces.hugoniot_tension();
     power_c = rate < 0.5 ? 1.0 / (5.0 + 0.75 * f / MPa) : 0.0;

@@ -80,11 +80,11 @@ struct RhtSurfaces {
 ///   nu >= 0  p = A1 nu + A2 nu^2 + A3 nu^3 + (B0 + B1 nu) rho_s e
 ///   nu < 0   p = T1 nu + T2 nu^2 + B0 rho_s e
 struct RhtSolid {
-  double A1, A2, A3, B0, B1, T1, T2, rho_s0;
+  double A1, A2, A3, B0, B1, T1, T2, rho0, c0;  ///< rho0: of the solid, rho_s0
 
   template <class Real>
   KRATER_FORCE_INLINE PressureSplit<Real> split(Real rho, Real) const {
-    const Real nu = (rho - rho_s0) * (1.0 / rho_s0);
+    const Real nu = (rho - rho0) * (1.0 / rho0);
     const MaskOf<Real> pressed = nu >= Real(0.0);
     const Real cold = nu * fma(nu, fma(nu, Real(A3), Real(A2)), Real(A1));
     return {select(pressed, cold, nu * fma(nu, Real(T2), Real(T1))),
@@ -93,12 +93,12 @@ struct RhtSolid {
   /// rho (dp/drho)_e + (p/rho) (dp/de)_rho.
   template <class Real>
   KRATER_FORCE_INLINE Real bulk_modulus(Real rho, Real v, Real p, Real e) const {
-    const Real nu = (rho - rho_s0) * (1.0 / rho_s0);
+    const Real nu = (rho - rho0) * (1.0 / rho0);
     const MaskOf<Real> pressed = nu >= Real(0.0);
     const Real cold = fma(nu, fma(nu, Real(3.0 * A3), Real(2.0 * A2)), Real(A1));
     const Real slope = select(pressed, cold, fma(nu, Real(2.0 * T2), Real(T1)));
     const Real gamma = fma(Real(B1), max(Real(0.0), nu), Real(B0));
-    const Real by_heat = e * fma(gamma, Real(rho_s0), select(pressed, B1 * rho, Real(0.0)));
+    const Real by_heat = e * fma(gamma, Real(rho0), select(pressed, B1 * rho, Real(0.0)));
     return fma(nu + 1.0, slope + by_heat, p * v * rho * gamma);
   }
 };

@@ -21,6 +21,7 @@ class CoupledStage final : public Stage {
  public:
   CoupledStage(const Law& law, Layout& layout)
       : law_{law},
+        feels_energy_{feels_energy(matter_of(law))},
         state_{law, layout},
         s_{layout.state<field::DeviatoricStress>(0.0, Law::name)},
         p_{layout.state<field::Pressure>(0.0, Law::name)},
@@ -90,8 +91,9 @@ class CoupledStage final : public Stage {
         limited(close_energy(update.pressure, share * p(g), e(g), change, ahead * work),
                 update.least, change);
     report(batch, FaultKind::no_convergence, g, !(step.denominator > Pack(0.5)));
-    batch.ledger->barotropic_work +=
-        sum(view(batch, mass_)(g) * fnma(p(g) + step.pressure, 0.5 * dv, work));
+    if (!feels_energy_)
+      batch.ledger->barotropic_work +=
+          sum(view(batch, mass_)(g) * fnma(p(g) + step.pressure, 0.5 * dv, work));
     p.set(g, step.pressure);
     e.set(g, select(share > Pack(0.0), step.energy, e(g)));
   }
@@ -133,6 +135,7 @@ class CoupledStage final : public Stage {
   }
 
   Law law_;
+  bool feels_energy_;
   StateOf<Law> state_;
   State<field::DeviatoricStress> s_;
   State<field::Pressure> p_;
