@@ -2,6 +2,7 @@
 """Tables and pictures that the reports of impact scenes share, for validation/*/make_report.py."""
 
 import os
+import textwrap
 
 import matplotlib
 matplotlib.use("Agg")
@@ -75,7 +76,7 @@ def shapes(study, rows, times, target, scale, box=None, title="", pixels=700):
             draw_section(axes, run_shapes, run_shapes.bodies(number), colouring, 1e-3, whole, pixels)
             axes.set_xlim(whole[0], whole[1])
             axes.set_ylim(whole[2], whole[3])
-            axes.set_title(f"{name}, {1e6 * run_shapes.time(number):.4g} µs", fontsize=10)
+            axes.set_title(textwrap.fill(f"{name}, {1e6 * run_shapes.time(number):.4g} µs", int(12 * width)), fontsize=10)
         line[0].set_ylabel("z [mm]")
     for axes in grid[-1]:
         axes.set_xlabel("r [mm]" if run_shapes.frame == "axisymmetric" else "x [mm]")

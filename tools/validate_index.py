@@ -146,6 +146,8 @@ FIGURES = {
                                                   "^initial", "^current", "to current"),
     "snl": lambda r: Figure("depth of seven shots in conventional concrete, HJC, rms error (the shots scatter by 12 %)",
                             r.cell("^HJC, conventional", "rms %") + " %"),
+    "solutions": lambda r: Figure("a plate that bends, eight elements through it (points and particles: the report)",
+                                  next(c[4] for c in r.tables[0].rows if c[0].startswith("Plate of 2") and c[1] == "elements") + " %"),
     "spear_plate": lambda r: r.finest("residual velocity, 3D", "residual velocity", "^full, 12.5", "^full, 6.3"),
     "speed": lambda r: Figure("Taylor 3d, ns per point-step on one core", r.cell("^Taylor 3d, 1 thread", "^step")),
     "spin_and_discs": lambda r: r.finest("energy that two discs keep, change", "total at 3 s", "^default, h/4",

@@ -206,6 +206,22 @@ class Study:
             written.write(wanted)
         return Point(folder)
 
+    def ask(self, name, settings=(), beside=()):
+        """(study.json, folder) of `krater study` with NAME.yaml of this folder, None and None if it failed. Its members are kept
+        for the same program, study and files that lie beside it."""
+        file = os.path.join(self.folder, name + ".yaml")
+        folder = os.path.join(self.folder, "runs_out", f"{name}_{digest(self.krater, file, *beside)}")
+        command = [self.krater, "study", file, "-j", str(self.cores), "-o", folder]
+        for setting in settings:
+            command += ["--set", setting]
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+        if done.returncode:
+            words = done.stderr.strip().splitlines()
+            self.failed.append((name, done.returncode, words[-1] if words else ""))
+            return None, None
+        with open(os.path.join(folder, "study.json"), encoding="utf-8") as written:
+            return json.load(written), folder
+
     def run_all(self, jobs):
         """{label: (settings, seconds)} -> {label: Run or None}, each on one core, as many at a time as
         there are cores."""

@@ -6,14 +6,12 @@ The studies are plugging.yaml and ccf_hypervelocity.yaml beside this file, for a
 pictures into its folder. `tools/validate ablations` builds first.
 """
 
-import json
 import os
 import shutil
-import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
-from validate_runs import Study, digest  # noqa: E402
+from validate_runs import Study  # noqa: E402
 
 ESTIMATED_SECONDS = 400  # on two quiet cores
 STUDIES = {  # name: what is laid over every member
@@ -23,20 +21,11 @@ STUDIES = {  # name: what is laid over every member
 
 
 def answer(study, name, settings):
-    """study.json of one ablation; its members are kept for the same program and study file only."""
-    file = os.path.join(study.folder, name + ".yaml")
-    folder = os.path.join(study.folder, "runs_out", f"{name}_{digest(study.krater, study.scene, file)}")
-    command = [study.krater, "study", file, "-j", str(study.cores), "-o", folder]
-    for setting in ("time.energy_error=off", *settings):
-        command += ["--set", setting]
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
-    if done.returncode:
-        words = done.stderr.strip().splitlines()
-        study.failed.append((name, done.returncode, words[-1] if words else ""))
-        return None
-    shutil.copyfile(os.path.join(folder, "pictures", "effects.png"), os.path.join(study.folder, name + ".png"))
-    with open(os.path.join(folder, "study.json"), encoding="utf-8") as written:
-        return json.load(written)
+    """study.json of one ablation."""
+    told, folder = study.ask(name, ["time.energy_error=off", *settings], [study.scene])
+    if told:
+        shutil.copyfile(os.path.join(folder, "pictures", "effects.png"), os.path.join(study.folder, name + ".png"))
+    return told
 
 
 def report(study, told):

@@ -6,9 +6,7 @@ The studies (kind `pareto`) lie beside this file. Writes README.md and fronts.pn
 fronts` builds first.
 """
 
-import json
 import os
-import subprocess
 import sys
 
 import matplotlib
@@ -17,7 +15,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter  # noqa: E402
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
-from validate_runs import Study, digest  # noqa: E402
+from validate_runs import Study  # noqa: E402
 
 ESTIMATED_SECONDS = 420  # on two quiet cores
 PROBLEMS = ("taylor_copper", "copper_bar", "plate_impact", "two_bars", "taylor_kinematics", "bars_kinematics",
@@ -25,20 +23,6 @@ PROBLEMS = ("taylor_copper", "copper_bar", "plate_impact", "two_bars", "taylor_k
 COLUMNS = 3  # of the picture
 TARGETS = (5.0, 2.0, 1.0, 0.5)  # %
 CELL = "grid.cell"
-
-
-def answer(study, name):
-    file = os.path.join(study.folder, name + ".yaml")
-    folder = os.path.join(study.folder, "runs_out", f"{name}_{digest(study.krater, file)}")
-    done = subprocess.run([study.krater, "study", file, "-j", str(study.cores), "-o", folder, "--set",
-                           "time.energy_error=off"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                          check=False)
-    if done.returncode:
-        words = done.stderr.strip().splitlines()
-        study.failed.append((name, done.returncode, words[-1] if words else ""))
-        return None
-    with open(os.path.join(folder, "study.json"), encoding="utf-8") as written:
-        return json.load(written)
 
 
 def settings_of(told, label):
@@ -147,7 +131,7 @@ def draw(path, all_told):
 
 def main():
     study = Study(__file__, "inputs/taylor_copper.yaml", ESTIMATED_SECONDS, __doc__)
-    all_told = [told for name in PROBLEMS if (told := answer(study, name))]
+    all_told = [told for name in PROBLEMS if (told := study.ask(name, ["time.energy_error=off"])[0])]
     if not all_told:
         sys.exit(f"fronts: no study ran: {study.failed}")
     study.add("Error against a known answer, and cost, of every combination of some settings: "
