@@ -28,7 +28,7 @@ ELSEWHERE = [
     ("a flipped bit anywhere in a checkpoint", "fault b18"), ("kill -9, full disk, memory, one folder", "tests/scene/calamities_test.py"),
     ("oblique plates, Hertz, friction", "tests/verification/contact_test.cpp; validation/contact"),
     ("edges of levels", "validation/levels")]
-PICTURES = [("bars", "4 km/s", "final_shape.png", "bars.png", "Two bars at 4 km/s after 8 us."),
+PICTURES = [("bars", "4 km/s", "final_shape.png", "bars.png", "Two bars at 4 km/s after 14 us."),
             ("shear", "tflip", "final_shape.png", "shear.png", "The sheared layer at a shear of 20: plastic strain."),
             ("long_rod", "run", "final_shape.png", "long_rod.png", "The long rod at 60 degrees after 50 us."),
             ("verney", "16 cells", "final_shape.png", "verney.png", "Verney's shell after it has stopped.")]
