@@ -15,11 +15,13 @@ namespace {
 std::string cause_of_heat(const Audit& a) {
   const double transfer = a.transfer_loss + a.transfer_gain;
   const double most = std::max({std::abs(transfer), a.contact_heat, a.wall_heat});
-  if (most < 0.5 * std::abs(a.numerical_heat))
+  // All that was given: of elastic matter the transfer takes back as heat what it did not lose.
+  const double taken = a.transfer_loss + a.contact_heat + a.wall_heat;
+  if (taken < 0.5 * std::abs(a.numerical_heat))
     return fmt::format(
         "mostly of the steps in which elastic work is summed (contact, walls and transfer took "
-        "{:.4g} J at most): a smaller time.cfl lowers it",
-        most);
+        "{:.4g} J): a smaller time.cfl lowers it",
+        taken);
   if (most == a.contact_heat)
     return fmt::format(
         "mostly of contact ({:.4g} J), which stops a layer of cells: a smaller grid.cell lowers it",

@@ -120,7 +120,7 @@ TEST_SUITE("verification") {
     CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("time.energy_error"), EnergyError);
     audit.transfer_gain = -12;
     CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("mostly of contact"), EnergyError);
-    audit.transfer_gain = -18, audit.contact_heat = 4;  // neither is half of it
+    audit.transfer_loss = audit.contact_heat = audit.wall_heat = 1;  // less than half of it
     CHECK_THROWS_WITH_AS(check(1, false), doctest::Contains("a smaller time.cfl"), EnergyError);
     CHECK_NOTHROW(check(2, false));  // the energy came half-way: wait
     CHECK_THROWS_AS(check(2, true), EnergyError);
