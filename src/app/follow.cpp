@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/follow.hpp"
 
-#include "app/signals.hpp"
-#include "krater/app/run.hpp"
+#include <functional>
+
 #include "krater/core/errors.hpp"
 #include "krater/core/ranks.hpp"
-#include "krater/output/results.hpp"
-#include "krater/simulation/simulation.hpp"
 
 namespace krater {
 
@@ -16,19 +14,13 @@ Readiness::~Readiness() {
   if (!first_failed) ranks::speak();
 }
 
-void Readiness::agree() {
+void Readiness::agree(const std::string& scene) {
   agreed_ = true;
   if (ranks::max(0) > 0) throw InputError("krater: another rank could not begin");
-}
-
-int follow(const std::string& restart, const Scene& scene, Readiness& ready) {
-  ignore_signals();  // the first rank hears them
-  Simulation sim{scene};
-  if (!restart.empty()) sim.restore(read_checkpoint(restart));
-  ready.agree();
-  sim.distribute();
-  sim.follow();
-  return kDone;
+  const auto name = static_cast<double>(std::hash<std::string>{}(scene) >> 12U);  // exact
+  if (ranks::max(name) != -ranks::max(-name))
+    throw InputError("krater: the ranks do not have the same scene: start all of them with the "
+                     "same file and the same --set");
 }
 
 }  // namespace krater

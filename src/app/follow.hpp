@@ -4,8 +4,6 @@
 /// How several ranks begin and end a run together: the first one runs it, the others follow.
 #include <string>
 
-#include "krater/scene/scene.hpp"
-
 namespace krater {
 
 /// Ranks go on together or not at all: one that cannot begin says so by not coming to agree(). What
@@ -16,14 +14,11 @@ class Readiness {
   Readiness(const Readiness&) = delete;
   Readiness& operator=(const Readiness&) = delete;
   ~Readiness();
-  void agree();  ///< throws InputError where another rank could not begin
+  /// Throws InputError where another rank could not begin, or has another scene.
+  void agree(const std::string& scene);
 
  private:
   bool agreed_ = false;
 };
-
-/// A rank but the first: it computes, and neither reads nor writes results. `restart`: a
-/// checkpoint, or empty. Returns the exit code.
-int follow(const std::string& restart, const Scene& scene, Readiness& ready);
 
 }  // namespace krater

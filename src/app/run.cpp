@@ -35,11 +35,11 @@ namespace {
 class Runner {
  public:
   /// `watch` runs since the program began to read the scene.
-  Runner(const RunOptions& options, Scene scene, const Stopwatch<outside_names.size()>& watch)
+  Runner(const RunOptions& options, Simulation& sim, const Stopwatch<outside_names.size()>& watch)
       : options_{options},
-        scene_{std::move(scene)},
-        sim_{scene_},
-        measurements_{sim_},
+        scene_{sim.scene()},
+        sim_{sim},
+        measurements_{with_points(sim)},
         outcomes_{sim_, history_titles()},
         gauges_{sim_, measurements_},
         costs_{scene_, sim_.isa_level()},
@@ -47,11 +47,16 @@ class Runner {
                  !options.restart.empty()},
         watch_{watch} {}
   Runner(const Runner&) = delete;
-  ~Runner() { sim_.dismiss(); }
 
-  int go(Readiness& ready);
+  int go();
 
  private:
+  /// What looks at the points at the start needs all of them here.
+  static const Simulation& with_points(Simulation& sim) {
+    const Scene& scene = sim.scene();
+    if (looks_at_points(scene) || !scene.outcomes.empty() || !scene.gauges.empty()) sim.assemble();
+    return sim;
+  }
   void begin();
   void resume();
   std::vector<Quantity> history_columns();
@@ -83,8 +88,8 @@ class Runner {
              const Progress& progress);
 
   RunOptions options_;
-  Scene scene_;
-  Simulation sim_;
+  const Scene& scene_;
+  Simulation& sim_;
   Measurements measurements_;
   Outcomes outcomes_;
   Gauges gauges_;
@@ -144,7 +149,7 @@ void Runner::resume() {
 }
 
 std::vector<Quantity> Runner::history_columns() {
-  sim_.assemble();
+  if (looks_at_points(scene_)) sim_.assemble();
   sim_.look_at_elements();
   sim_.look_for_torn_points();
   std::vector<Quantity> row = history_row(sim_);
@@ -215,10 +220,8 @@ void Runner::write_due(Schedule& frames, Schedule& history) {
   frames.advance(sim_.time());
 }
 
-int Runner::go(Readiness& ready) {
+int Runner::go() {
   begin();
-  ready.agree();
-  sim_.distribute();
   watch_.lap(static_cast<std::size_t>(Outside::setup));
   listen_to_signals();
   Progress progress{sim_, options_.quiet};
@@ -318,7 +321,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["time"] = Json::of(sim_.time());
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
-  sim_.assemble();
+  if (looks_at_points(scene_) || !scene_.outcomes.empty()) sim_.assemble();
   sim_.look_at_elements();
   sim_.look_for_torn_points();
   measurements_.summarize(sim_, j);
@@ -390,10 +393,15 @@ int run(const RunOptions& options) {
   flush_denormals();
   Stopwatch<outside_names.size()> watch;
   Readiness ready;
-  Scene scene = read_scene(options.scene, options.overrides);
+  if (!ranks::first()) ignore_signals();  // the first rank hears them
+  const Scene scene = read_scene(options.scene, options.overrides);
   require_feasible(scene, forecast(scene));
-  if (!ranks::first()) return follow(options.restart, scene, ready);
-  return Runner{options, std::move(scene), watch}.go(ready);
+  Simulation sim{scene};
+  ready.agree(scene.resolved);
+  sim.distribute();
+  if (ranks::first()) return Runner{options, sim, watch}.go();
+  sim.follow([&options] { return read_checkpoint(options.restart); });
+  return kDone;
 }
 
 }  // namespace krater

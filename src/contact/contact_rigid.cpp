@@ -6,6 +6,7 @@
 #include "krater/contact/contact.hpp"
 #include "krater/contact/rigid_meeting.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 
 namespace krater {
 
@@ -95,10 +96,17 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
   for (const RigidBody& body : rigid.all()) {
     if (!body.options().free) continue;
     const int b = body.options().body;
-    ForetoldPush all;
-    for (Group& group : groups_)
+    ReproducibleSums<42> sums;
+    for (const Group& group : groups_)
       for (const RigidShare& share : group.shares)
-        if (share.body == b) all.add(share.foretold);
+        if (group.counted && share.body == b) {
+          sums.add(share.foretold.push.data(), 6);
+          sums.add(share.foretold.stiffness.data(), 36, 6);
+        }
+    ranks::sum(sums.all);
+    ForetoldPush all;
+    sums.read(all.push.data(), 6);
+    sums.read(all.stiffness.data(), 36, 6);
     all.foretell(body, twists_[static_cast<std::size_t>(b)]);
   }
 }
@@ -107,10 +115,19 @@ void ContactSet::foretell(const BlockGrid& grid, RigidBodies& rigid) {
 void ContactSet::hand_over(RigidBodies& rigid, ContactWork& sum) {
   for (RigidBody& body : rigid.all()) {
     const RigidTwist before = body.twist();
-    RigidImpulse all;
+    ReproducibleSums<7> sums;
     for (const Group& group : groups_)
       for (const RigidShare& share : group.shares)
-        if (share.body == body.options().body) all.add(share.sum);
+        if (group.counted && share.body == body.options().body) {
+          sums.add(share.sum.impulse.data(), 3);
+          sums.add(share.sum.moment.data(), 3, 3);
+          sums.all[6] += share.sum.work;
+        }
+    ranks::sum(sums.all);
+    RigidImpulse all;
+    sums.read(all.impulse.data(), 3);
+    sums.read(all.moment.data(), 3, 3);
+    all.work = sums.all[6].value();
     sum.change += body.take(all);
     if (!body.options().free) sum.driven += all.work;
     const RigidTwist after = body.twist();

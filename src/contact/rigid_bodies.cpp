@@ -70,19 +70,19 @@ void RigidBodies::rewind() {
   for (RigidBody& body : bodies_) body.rewind();
 }
 
-void RigidBodies::finish(const BlockGrid& grid, double dt) {
+void RigidBodies::finish(double dt) {
   for (RigidBody& body : bodies_) body.finish(dt);
-  sides_.assign(grid.patches().size(), 0);
 }
 
-void RigidBodies::move(std::size_t p, Patch& patch, const Levels& levels,
-                       const BoundarySet& boundary, const PointColumns& c, unsigned char* leavers) {
+void RigidBodies::move(Patch& patch, const Levels& levels, const BoundarySet& boundary,
+                       const PointColumns& c, unsigned char* leavers) const {
   const RigidBody& body = *find(patch.body);
   const GridGeometry& geometry = levels.geometry(patch.key.level);
   const int dimension = geometry.dimension;
   PatchResult& result = patch.result;
   result.kinetic = result.max_rate = 0;
   result.limiter = 1;
+  result.crossed = 0;
   std::fill(leavers, leavers + patch.points.groups(), static_cast<unsigned char>(0));
   for (int i = 0; i < patch.points.count(); ++i) {
     Eigen::Vector3d X = Eigen::Vector3d::Zero();
@@ -97,7 +97,7 @@ void RigidBodies::move(std::size_t p, Patch& patch, const Levels& levels,
       const bool low = s<geometry.lower_storage(), high = s> geometry.upper_storage(a);
       outside = outside || low || high;
       if ((low || high) && !boundary.is_open(a, low ? 0 : 1))
-        sides_[p] = static_cast<signed char>(1 + 2 * a + (low ? 0 : 1));
+        result.crossed = 1 + 2 * a + (low ? 0 : 1);
       const double rate = std::abs(v[a]) * geometry.inv_h / kMostTravel;
       if (rate > result.max_rate) {
         result.max_rate = rate;
@@ -111,14 +111,14 @@ void RigidBodies::move(std::size_t p, Patch& patch, const Levels& levels,
 }
 
 void RigidBodies::throw_collisions(const BlockGrid& grid) const {
-  for (std::size_t p = 0; p < sides_.size(); ++p) {
-    if (sides_[p] == 0) continue;
-    const int side = sides_[p] - 1;
+  for (const Patch& patch : grid.patches()) {
+    if (patch.result.crossed == 0) continue;
+    const int side = patch.result.crossed - 1;
     throw NumericalError(fmt::format(
         "rigid body '{}' has run into the {} side of the domain across grid axis {}, which carries "
         "a condition; a rigid body meets deformable bodies only: enlarge grid.box, or make that "
         "side open",
-        find(grid.patches()[p].body)->options().name, side % 2 == 0 ? "lower" : "upper", side / 2));
+        find(patch.body)->options().name, side % 2 == 0 ? "lower" : "upper", side / 2));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "krater/contact/rigid.hpp"
 #include "krater/core/errors.hpp"
+#include "krater/core/ranks.hpp"
 
 namespace krater {
 
@@ -28,7 +29,7 @@ Matrix3d cross_matrix(const Vector3d& w) {
   return out;
 }
 
-/// visit(mass, position at the start) for every point.
+/// visit(mass, position at the start) for every point of this rank.
 template <class Visit>
 void for_points(const BlockGrid& grid, const RigidOptions& options, const PointColumns& c,
                 const Visit& visit) {
@@ -80,22 +81,30 @@ Eigen::Matrix<double, 6, 6> RigidBody::mobility() const {
 }
 
 void RigidBody::measure(const BlockGrid& grid, const PointColumns& columns) {
-  mass_ = 0;
-  Vector3d first = Vector3d::Zero();
+  ReproducibleSums<4> moments;
   for_points(grid, options_, columns, [&](double m, const Vector3d& X) {
-    mass_ += m;
-    first += m * X;
+    const Vector3d first = m * X;
+    moments.all[3] += m;
+    moments.add(first.data(), 3);
   });
+  ranks::sum(moments.all);
+  mass_ = moments.all[3].value();
   principal_.setZero();
   if (!(mass_ > 0)) return;
-  start_centre_ = first / mass_;
-  Matrix3d I = Matrix3d::Zero();
-  size_ = grid.geometry().h;
+  moments.read(start_centre_.data(), 3);
+  start_centre_ /= mass_;
+  ReproducibleSums<9> turning;
+  double size = grid.geometry().h;
   for_points(grid, options_, columns, [&](double m, const Vector3d& X) {
     const Vector3d r = X - start_centre_;
-    I += m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-    size_ = std::max(size_, r.norm());
+    const Matrix3d I = m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+    turning.add(I.data());
+    size = std::max(size, r.norm());
   });
+  ranks::sum(turning.all);
+  size_ = ranks::max(size);
+  Matrix3d I;
+  turning.read(I.data());
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver{I};
   principal_ = solver.eigenvalues().cwiseMax(0.0);
   axes_ = solver.eigenvectors();

@@ -61,30 +61,21 @@ void read_others(BlockGrid& grid, const std::vector<std::vector<std::byte>>& all
       work(p, patch, readers[static_cast<std::size_t>(patch.rank)]);
 }
 
+double expected_cost(double points) { return 1e-7 * points + 1e-6; }  ///< before it is known [s]
+
 double weight_of(const Patch& patch) {
-  return patch.cost > 0 ? patch.cost : 1e-7 * patch.count() + 1e-6;  // before it was measured [s]
+  return patch.cost > 0 ? patch.cost : expected_cost(patch.count());
 }
 
 }  // namespace
 
-void Distribution::take_ranks(BlockGrid& grid) const {
+void Distribution::deal(BlockGrid& grid, const std::map<BlockKey, double>& points) {
+  std::vector<Partition::Weighted> blocks;
+  for (const auto& [key, count] : points) blocks.push_back({key, expected_cost(count)});
+  partition_.cut(blocks);
+  steps_since_cut_ = 0;
   grid.set_owners([this](const BlockKey& key) { return partition_.owner(key); }, ranks::index(),
                   width_);
-}
-
-void Distribution::deal(BlockGrid& grid) {
-  std::vector<Partition::Weighted> own;
-  for (std::size_t p = 0; p < grid.patches().size(); ++p)  // any share of them, each of one rank
-    if (static_cast<int>(p) % ranks::count() == ranks::index())
-      own.push_back({grid.patches()[p].key, weight_of(grid.patches()[p])});
-  partition_.cut(own);
-  take_ranks(grid);
-  for (Patch& patch : grid.patches()) {
-    patch.rank = partition_.owner(patch.key);
-    patch.held = patch.points.count();
-    if (patch.rank != ranks::index()) patch.points = PointStore{patch.points.stride()};
-  }
-  grid.rebuild(false);
 }
 
 double Distribution::imbalance(const BlockGrid& grid) const {
@@ -104,10 +95,9 @@ bool Distribution::rebalance(BlockGrid& grid) {
                             : steps_since_cut_ < kSettlingSteps || imbalance(grid) < kUneven)
     return false;
   steps_since_cut_ = 0;
-  std::vector<Partition::Weighted> own;
-  for (const Patch& patch : grid.patches())
-    if (patch.here) own.push_back({patch.key, weight_of(patch)});
-  partition_.cut(own);
+  std::vector<Partition::Weighted> blocks;
+  for (const Patch& patch : grid.patches()) blocks.push_back({patch.key, weight_of(patch)});
+  partition_.cut(blocks);
   const auto count = static_cast<std::size_t>(ranks::count());
   std::vector<ranks::Message> out(count);
   std::vector<bool> from(count);
@@ -235,6 +225,24 @@ void Distribution::share_results(BlockGrid& grid, std::vector<Removed>& removed)
   });
 }
 
+void Distribution::share_bytes(const BlockGrid& grid, std::size_t size,
+                               std::span<std::byte> found) const {
+  std::vector<std::byte> own;
+  for (std::size_t p = 0; p < grid.patches().size(); ++p)
+    if (grid.patches()[p].here) {
+      const auto piece = found.subspan(p * size, size);
+      own.insert(own.end(), piece.begin(), piece.end());
+    }
+  const auto all = ranks::all_gather(own);
+  std::vector<std::size_t> at(all.size());
+  for (std::size_t p = 0; p < grid.patches().size(); ++p) {
+    const auto r = static_cast<std::size_t>(grid.patches()[p].rank);
+    if (!grid.patches()[p].here)
+      std::memcpy(found.data() + p * size, all[r].data() + at[r], size);
+    at[r] += size;
+  }
+}
+
 void Distribution::share_keys(const BlockGrid& grid,
                               std::vector<std::vector<BlockKey>>& found) const {
   std::vector<std::byte> own;
@@ -301,11 +309,10 @@ void Distribution::send_points(BlockGrid& grid) const {
 }
 
 void Distribution::share_counts(BlockGrid& grid) const {
-  std::vector<std::byte> own;
-  for (const Patch& patch : grid.patches())
-    if (patch.here) put(own, patch.points.count());
-  read_others(grid, ranks::all_gather(own),
-              [](std::size_t, Patch& patch, Reader& from) { patch.held = from.take<int>(); });
+  std::vector<int> counts;
+  for (const Patch& patch : grid.patches()) counts.push_back(patch.points.count());
+  share(grid, counts);
+  for (std::size_t p = 0; p < counts.size(); ++p) grid.patches()[p].held = counts[p];
 }
 
 void Distribution::assemble(BlockGrid& grid) const {

@@ -2,6 +2,7 @@
 #include <mpi.h>
 #include <trilinos/zoltan.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -23,15 +24,16 @@ struct Partition::Cuts {
     const char* deal = std::getenv("KRATER_DEAL");
     scattered = deal != nullptr && std::string{deal} == "scattered";
   }
-  /// Zoltan begins on all ranks together: none may wait here for one that could not begin.
   void begin() {
     if (zoltan != nullptr) return;
     float version = 0;
     if (Zoltan_Initialize(0, nullptr, &version) != ZOLTAN_OK)
       throw NumericalError("Zoltan does not start");
-    zoltan = Zoltan_Create(MPI_COMM_WORLD);
+    zoltan = Zoltan_Create(MPI_COMM_SELF);
+    const std::string parts = std::to_string(ranks::count());
     for (const auto& [name, value] :
-         {std::pair{"DEBUG_LEVEL", "0"}, std::pair{"LB_METHOD", "RCB"}, std::pair{"KEEP_CUTS", "1"},
+         {std::pair{"DEBUG_LEVEL", "0"}, std::pair{"NUM_GLOBAL_PARTS", parts.c_str()},
+          std::pair{"LB_METHOD", "RCB"}, std::pair{"KEEP_CUTS", "1"},
           std::pair{"RCB_REUSE", "1"}, std::pair{"OBJ_WEIGHT_DIM", "1"},
           std::pair{"NUM_GID_ENTRIES", "1"}, std::pair{"NUM_LID_ENTRIES", "1"},
           std::pair{"RETURN_LISTS", "NONE"}, std::pair{"RCB_RECTILINEAR_BLOCKS", "0"}})
@@ -47,6 +49,11 @@ struct Partition::Cuts {
   Cuts(const Cuts&) = delete;
   Cuts& operator=(const Cuts&) = delete;
 
+  /// Of a block, in blocks of the coarsest level.
+  static void centre(const BlockKey& key, int dimension, double* place) {
+    for (int a = 0; a < dimension; ++a)
+      place[a] = std::ldexp(key.i[static_cast<std::size_t>(a)] + 0.5, -key.level);
+  }
   static const Cuts& of(void* data) { return *static_cast<const Cuts*>(data); }
   static int count_blocks(void* data, int* error) {
     *error = ZOLTAN_OK;
@@ -68,8 +75,7 @@ struct Partition::Cuts {
   static void place_block(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* place,
                           int* error) {
     const BlockKey& key = (*of(data).blocks)[*local].key;
-    for (int a = 0; a < of(data).dimension; ++a)
-      place[a] = key.i[static_cast<std::size_t>(a)] + 0.5;
+    centre(key, of(data).dimension, place);
     *error = ZOLTAN_OK;
   }
 };
@@ -77,13 +83,13 @@ struct Partition::Cuts {
 Partition::Partition(int dimension) : cuts_{std::make_unique<Cuts>(dimension)} {}
 Partition::~Partition() = default;
 
-void Partition::cut(const std::vector<Weighted>& own) {
+void Partition::cut(const std::vector<Weighted>& blocks) {
   if (cuts_->scattered) {
     ++cuts_->shuffles;
     return;
   }
   cuts_->begin();
-  cuts_->blocks = &own;
+  cuts_->blocks = &blocks;
   int changes = 0, wide_global = 0, wide_local = 0, imports = 0, exports = 0;
   ZOLTAN_ID_PTR import_global = nullptr, import_local = nullptr, export_global = nullptr,
                 export_local = nullptr;
@@ -105,11 +111,11 @@ int Partition::owner(const BlockKey& key) const {
     return static_cast<int>(hash_of(key, cuts_->shuffles) %
                             static_cast<std::size_t>(ranks::count()));
   double place[3] = {};
-  for (int a = 0; a < cuts_->dimension; ++a) place[a] = key.i[static_cast<std::size_t>(a)] + 0.5;
+  Cuts::centre(key, cuts_->dimension, place);
   int rank = 0, part = 0;
   if (Zoltan_LB_Point_PP_Assign(cuts_->zoltan, place, &rank, &part) != ZOLTAN_OK)
     throw NumericalError("a block has no rank (Zoltan)");
-  return rank;
+  return part;
 }
 
 }  // namespace krater

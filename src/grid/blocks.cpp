@@ -92,6 +92,10 @@ Patch& BlockGrid::add_patch(const BlockKey& key, int body, int stride) {
   patch.key = key;
   patch.body = body;
   patch.points = PointStore{stride};
+  if (owner_) {
+    patch.rank = owner_(key);
+    patch.here = patch.near = patch.rank == own_;
+  }
   return patch;
 }
 
@@ -136,7 +140,6 @@ std::vector<BlockKey> keys_within(std::vector<BlockKey> keys, int width, int dim
 void BlockGrid::find_near() {
   std::vector<BlockKey> own;
   for (Patch& patch : patches_) {
-    if (patch.rank < 0) patch.rank = owner_(patch.key);
     patch.here = patch.rank == own_;
     if (patch.here) own.push_back(patch.key);
   }

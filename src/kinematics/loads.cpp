@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/kinematics/loads.hpp"
 
+#include "krater/core/ranks.hpp"
+
 namespace krater {
 
 namespace {
@@ -33,7 +35,7 @@ Triple accelerate(PointStore& points, const PointColumns& c, int reference, int 
 void load_rigid(RigidBody& body, BlockGrid& grid, const PointColumns& c, const Acceleration& load,
                 double time) {
   const int dimension = grid.geometry().dimension;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+  ReproducibleSums<6> sums;
   for (const Patch& patch : grid.patches()) {
     if (patch.body != body.options().body) continue;
     const PointStore& points = patch.points;
@@ -41,10 +43,15 @@ void load_rigid(RigidBody& body, BlockGrid& grid, const PointColumns& c, const A
       const Triple x = vector_at(points, c.position, dimension, i);
       const Triple X = vector_at(points, body.options().reference, dimension, i);
       const Eigen::Vector3d f = points.at(c.mass, i) * vector(load(x, X, time));
-      force += f;
-      moment += (vector(x) - body.twist().centre).cross(f);
+      const Eigen::Vector3d moment = (vector(x) - body.twist().centre).cross(f);
+      sums.add(f.data(), 3);
+      sums.add(moment.data(), 3, 3);
     }
   }
+  ranks::sum(sums.all);
+  Eigen::Vector3d force, moment;
+  sums.read(force.data(), 3);
+  sums.read(moment.data(), 3, 3);
   body.set_load(force, moment);
 }
 

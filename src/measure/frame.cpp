@@ -7,7 +7,7 @@
 
 #include "krater/measure/measurements.hpp"
 #include "krater/measure/snapshot.hpp"
-#include "measure/place.hpp"
+#include "krater/points/place.hpp"
 
 namespace krater {
 

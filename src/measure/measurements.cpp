@@ -240,6 +240,13 @@ const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelecti
   return kept.points;
 }
 
+bool looks_at_points(const Scene& scene) {
+  return scene.method.numerical_fracture == NumericalFracture::watch ||
+         std::any_of(scene.measures.begin(), scene.measures.end(), [](const MeasureOptions& m) {
+           return m.kind != MeasureKind::impulse && m.kind != MeasureKind::force;
+         });
+}
+
 Measurements::Measurements(const Simulation& sim) : selections_{sim.scene()} {
   Selections selections{sim.scene()};  // of the start only: they do not stay
   for (const MeasureOptions& m : sim.scene().measures) {

@@ -4,10 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
-
-#include "krater/core/parallel.hpp"
-#include "measure/place.hpp"
 
 namespace krater {
 
@@ -15,30 +11,6 @@ namespace {
 
 void add(std::vector<Quantity>& row, std::string name, std::string unit, double value) {
   row.push_back({std::move(name), std::move(unit), value});
-}
-
-/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J], of one set.
-double deviatoric_energy(const Simulation& sim, int set) {
-  const PointSet points = sim.set(set);
-  const Body& body = *sim.bodies()[static_cast<std::size_t>(points.body)];
-  const int s = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info),
-            rho = body.slot(field::Density::info),
-            phi = body.degrades() ? body.slot(field::Damage::info) : -1;
-  const double G = body.material().shear_modulus;
-  if (s < 0 || G <= 0) return 0;
-  double sum = 0;
-  for (int i = 0; i < points.count(); ++i) {
-    const PointPlace at{points.points->point(i)};
-    sum += at(m) * squared_deviator(at, s) / (4 * G * at(rho) * (phi < 0 ? 1 : 1 - at(phi)));
-  }
-  return sum;
-}
-
-double deviatoric_energy(const Simulation& sim) {
-  std::vector<double> sets(static_cast<std::size_t>(sim.set_count()));
-  for_each(sets.size(),
-           [&](std::size_t s) { sets[s] = deviatoric_energy(sim, static_cast<int>(s)); });
-  return std::accumulate(sets.begin(), sets.end(), 0.0);
 }
 
 void add_elements(const Simulation& sim, std::vector<Quantity>& row) {
@@ -107,7 +79,7 @@ void add_torn_points(const Simulation& sim, Json& j) {
 std::size_t points_at(const Simulation& sim, int level) {
   std::size_t count = 0;
   for (const Patch& patch : sim.grid().patches())
-    if (patch.key.level == level) count += static_cast<std::size_t>(patch.points.count());
+    if (patch.key.level == level) count += static_cast<std::size_t>(patch.count());
   return count;
 }
 
@@ -158,7 +130,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "kinetic_energy", "J", t.kinetic);
   add(row, "internal_energy", "J", t.internal);
   add(row, "total_energy", "J", t.kinetic + t.internal);
-  add(row, "deviatoric_elastic_energy", "J", deviatoric_energy(sim));
+  add(row, "deviatoric_elastic_energy", "J", sim.deviatoric_energy());
   add(row, "plastic_work", "J", a.plastic_work);
   add(row, "viscous_work", "J", a.viscous_work);
   add(row, "transfer_loss", "J", a.transfer_loss);

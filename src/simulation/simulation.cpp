@@ -123,6 +123,12 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
       scene.method, MpmStep::Parts{grid_, boundary_, contact_, rigid_, *kernels_, *plain_kernels_,
                                    kernel_data_, audit_, *loads_, impulses_, carrier_kernels_.get(),
                                    kernel_shape(scene.method.shape), ranks_.get()});
+  add_rigid_bodies();
+  place_points();
+  if (!ranks_) start();
+}
+
+void Simulation::start() {
   place_rigid_bodies();
   place_meshes();
   place_particles();
@@ -163,7 +169,7 @@ void Simulation::watch_impulses() {
     }
 }
 
-void Simulation::place_rigid_bodies() {
+void Simulation::add_rigid_bodies() {
   std::vector<bool> rigid(bodies_.size()), fluid(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     fluid[b] = bodies_[b]->is_fluid();
@@ -172,27 +178,39 @@ void Simulation::place_rigid_bodies() {
   }
   boundary_.set_rigid_fields(std::move(rigid));
   contact_.set_fluids(std::move(fluid));
-  place_points();
+}
+
+void Simulation::place_rigid_bodies() {
   for (RigidBody& body : rigid_.all())
     body.place(grid_, kernel_data_[static_cast<std::size_t>(body.options().body)].columns, 0);
   rigid_.write_velocities(grid_, columns_of(kernel_data_));
 }
 
 void Simulation::choose_first_step() {
+  struct Fastest {
+    double speed = 0, id = 0;
+  };
+  std::vector<Fastest> by_patch(grid_.patches().size());
+  for (std::size_t n = 0; n < by_patch.size(); ++n) {
+    const Patch& p = grid_.patches()[n];
+    const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
+    for (int i = 0; i < p.points.count(); ++i)
+      for (int a = 0; a < geometry_.dimension; ++a)
+        if (const double speed = std::abs(p.points.at(c.velocity + kLanes * a, i));
+            speed > by_patch[n].speed)
+          by_patch[n] = {speed, p.points.at(0, i)};
+  }
+  if (ranks_) ranks_->share(grid_, by_patch);
   double fastest = 0, signal = 0, inv_h = 0;
-  for (const Patch& p : grid_.patches()) {
+  for (std::size_t n = 0; n < by_patch.size(); ++n) {
+    const Patch& p = grid_.patches()[n];
     inv_h = std::max(inv_h, grid_.geometry(p.key.level).inv_h);
     const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
-    const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
     signal = std::max(signal, body.signal_speed());
-    for (int i = 0; i < p.points.count(); ++i)
-      for (int a = 0; a < geometry_.dimension; ++a) {
-        const double speed = std::abs(p.points.at(c.velocity + kLanes * a, i));
-        if (speed <= fastest) continue;
-        fastest = speed;
-        limit_.body = p.body;
-        limit_.id = p.points.at(0, i);
-      }
+    if (by_patch[n].speed <= fastest) continue;
+    fastest = by_patch[n].speed;
+    limit_.body = p.body;
+    limit_.id = by_patch[n].id;
   }
   step_->set_reference_speed(fastest);
   // The closing speed of two bodies is at most twice the greatest speed.

@@ -6,6 +6,7 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/points/place.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace krater {
@@ -122,11 +123,48 @@ Totals Simulation::totals_of_set(int s) const {
   return t;
 }
 
+/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J].
+double Simulation::deviatoric_energy_of_set(int s) const {
+  const PointSet points = set(s);
+  const Body& body = *bodies_[static_cast<std::size_t>(points.body)];
+  const int dev = body.slot(field::DeviatoricStress::info), m = body.slot(field::Mass::info),
+            rho = body.slot(field::Density::info),
+            phi = body.degrades() ? body.slot(field::Damage::info) : -1;
+  const double G = body.material().shear_modulus;
+  if (dev < 0 || G <= 0) return 0;
+  double sum = 0;
+  for (int i = 0; i < points.count(); ++i) {
+    const PointPlace at{points.points->point(i)};
+    sum += at(m) * squared_deviator(at, dev) / (4 * G * at(rho) * (phi < 0 ? 1 : 1 - at(phi)));
+  }
+  return sum;
+}
+
+/// Of all sets, in their order.
+std::vector<SetSums> Simulation::set_sums(bool deviatoric) const {
+  if (ranks_ && !assembled_) {
+    survey_together();
+    return survey_;
+  }
+  std::vector<SetSums> sums(static_cast<std::size_t>(set_count()));
+  for_each(sums.size(), [&](std::size_t s) {
+    const int set = static_cast<int>(s);
+    sums[s] = {totals_of_set(set), deviatoric ? deviatoric_energy_of_set(set) : 0};
+  });
+  return sums;
+}
+
+double Simulation::deviatoric_energy() const {
+  double sum = 0;
+  for (const SetSums& set : set_sums(true)) sum += set.deviatoric;
+  return sum;
+}
+
 std::vector<Totals> Simulation::totals_by_body() const {
-  std::vector<Totals> sets(static_cast<std::size_t>(set_count())), out(bodies_.size());
-  for_each(sets.size(), [&](std::size_t s) { sets[s] = totals_of_set(static_cast<int>(s)); });
-  for (std::size_t s = 0; s < sets.size(); ++s)
-    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sets[s];
+  const std::vector<SetSums> sums = set_sums(false);
+  std::vector<Totals> out(bodies_.size());
+  for (std::size_t s = 0; s < sums.size(); ++s)
+    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sums[s].totals;
   return out;
 }
 

@@ -2,6 +2,7 @@
 // The state of a simulation as blobs. All that belongs to a body stands under its name, so the
 // order of the bodies in the scene may change.
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -64,6 +65,18 @@ const CheckpointBlob& demand(const Checkpoint& checkpoint, const std::string& na
   if (const CheckpointBlob* blob = checkpoint.find(name)) return *blob;
   throw InputError("checkpoint has no '" + name +
                    "': it belongs to another scene (a body, law or method differs)");
+}
+
+/// take(key, points) for the patches of a body, in their order.
+template <class Take>
+void for_saved_patches(const Checkpoint& checkpoint, const Body& body, const Take& take) {
+  const auto& words = demand(checkpoint, blob_name(body, "patches")).integers;
+  for (std::size_t i = 0; i + 4 < words.size(); i += 5) {
+    BlockKey key;
+    for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(words[i + a]);
+    key.level = static_cast<std::int32_t>(words[i + 3]);
+    take(key, static_cast<int>(words[i + 4]));
+  }
 }
 
 }  // namespace
@@ -178,8 +191,13 @@ Checkpoint Simulation::save() const {
 
 void Simulation::restore_columns(const CheckpointBlob& points, const Body& body,
                                  const std::vector<int>& sets) {
+  const auto count_of = [this](int s) {
+    return s < first_points()
+               ? set(s).count()
+               : grid_.patches()[static_cast<std::size_t>(s - first_points())].count();
+  };
   std::uint64_t count = 0;
-  for (const int s : sets) count += static_cast<std::uint64_t>(set(s).count());
+  for (const int s : sets) count += static_cast<std::uint64_t>(count_of(s));
   const std::vector<int> slots = all_slots(body);
   if (!points.matrix || points.shape != std::vector<std::uint64_t>{slots.size(), count})
     throw InputError("checkpoint: body '" + body.name() +
@@ -189,8 +207,9 @@ void Simulation::restore_columns(const CheckpointBlob& points, const Body& body,
     points.matrix(row, 1, x.data());
     const double* from = x.data();
     for (const int s : sets) {
-      PointStore& to = change(s);
-      for (int i = 0; i < to.count(); ++i) to.at(kLanes * slots[row], i) = *from++;
+      PointStore& to = change(s);  // empty where another rank has them
+      for (int i = 0; i < to.count(); ++i) to.at(kLanes * slots[row], i) = from[i];
+      from += count_of(s);
     }
   }
 }
@@ -202,17 +221,17 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
                      "' has other columns there: another law, method or version of krater");
   if (is_sph(b)) return restore_particles(b, checkpoint);
   const CheckpointBlob& points = demand(checkpoint, blob_name(body, "points"));
-  const auto& keys = demand(checkpoint, blob_name(body, "patches")).integers;
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
   const std::size_t first = grid_.patches().size();
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i + 4 < keys.size(); i += 5) {
-    BlockKey key;
-    for (std::size_t a = 0; a < 3; ++a) key.i[a] = static_cast<std::int32_t>(keys[i + a]);
-    key.level = static_cast<std::int32_t>(keys[i + 3]);
-    grid_.add_patch(key, b, columns.stride).points.resize(static_cast<int>(keys[i + 4]));
-    count += static_cast<std::uint64_t>(keys[i + 4]);
-  }
+  for_saved_patches(checkpoint, body, [&](const BlockKey& key, int held) {
+    Patch& patch = grid_.add_patch(key, b, columns.stride);
+    if (patch.here)
+      patch.points.resize(held);
+    else
+      patch.held = held;
+    count += static_cast<std::uint64_t>(held);
+  });
   std::vector<int> sets(grid_.patches().size() - first);
   std::iota(sets.begin(), sets.end(), first_points() + static_cast<int>(first));
   if (is_mesh(b)) {
@@ -232,7 +251,16 @@ void Simulation::restore_body(int b, const Checkpoint& checkpoint) {
   }
 }
 
-void Simulation::restore(const Checkpoint& checkpoint) {
+/// Before any of its patches is made.
+void Simulation::deal_saved(const Checkpoint& checkpoint) {
+  std::map<BlockKey, double> points;
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    for_saved_patches(checkpoint, *bodies_[b],
+                      [&](const BlockKey& key, int count) { points[key] += count; });
+  ranks_->deal(grid_, points);
+}
+
+void Simulation::restore_here(const Checkpoint& checkpoint) {
   if (demand(checkpoint, "grid").doubles != grid_identity(scene_.frame, geometry_))
     throw InputError(
         "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
@@ -255,6 +283,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   warnings_.restore(checkpoint);
   grid_.drop_patches();
   restore_levels(checkpoint);
+  if (ranks_) deal_saved(checkpoint);
   for (std::size_t b = 0; b < bodies_.size(); ++b) restore_body(static_cast<int>(b), checkpoint);
   grid_.rebuild(true);
   step_->relink();

@@ -66,6 +66,18 @@ bool inside(const Scene& scene, const BodyOptions& body, const SeedPoint& seed) 
 
 }  // namespace
 
+/// Who has the blocks that the bodies lie in, by the points of their lattices.
+void Simulation::deal_lattices() {
+  std::map<BlockKey, double> points;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b]->options().material_points()) continue;
+    const int from = coarsest_level(static_cast<int>(b));
+    for (const SeedPoint& seed : bodies_[b]->lattice(scene_, from))
+      points[grid_.levels().block_at(seed.x.data())] += 1;
+  }
+  ranks_->deal(grid_, points);
+}
+
 double Simulation::place_body(int b) {
   Body& body = *bodies_[static_cast<std::size_t>(b)];
   const PointColumns& columns = kernel_data_[static_cast<std::size_t>(b)].columns;
@@ -78,13 +90,23 @@ double Simulation::place_body(int b) {
   std::vector<Arrival> parts;
   double smallest = 0;
   const auto mass_at = static_cast<std::size_t>(columns.mass / kLanes);
+  const auto patch_at = [&](const BlockKey& key) -> Patch& {
+    const auto [at, is_new] = where.try_emplace(key, grid_.patches().size());
+    return is_new ? grid_.add_patch(key, b, columns.stride) : grid_.patches()[at->second];
+  };
   for (std::size_t id = 0; id < seeds.size(); ++id) {
+    const double m = body.material().density * seeds[id].measure;
+    smallest = smallest > 0 ? std::min(smallest, m) : m;
+    const double lit = detonation_.burns(b) ? detonation_.since_lighting(b, seeds[id].x) : 0;
+    const BlockKey owner = grid_.levels().block_at(seeds[id].x.data());
+    if (owner.level <= from && !patch_at(owner).here) {  // another rank makes it
+      ++patch_at(owner).held;
+      continue;
+    }
     std::vector<double>& record = maker.make(seeds[id], id);
     if (detonation_.burns(b))
-      record[static_cast<std::size_t>(body.slot(field::SinceLighting::info))] =
-          detonation_.since_lighting(b, seeds[id].x);
+      record[static_cast<std::size_t>(body.slot(field::SinceLighting::info))] = lit;
     parts.clear();
-    const BlockKey owner = grid_.levels().block_at(seeds[id].x.data());
     if (owner.level <= from)
       parts.push_back({owner, b, record});
     else
@@ -97,12 +119,12 @@ double Simulation::place_body(int b) {
             std::round(std::log2(part.record[mass_at] / record[mass_at]) / geometry_.dimension);
         maker.set_motion(part.record, seeds[id], std::exp2(halvings));
       }
-      const auto [at, is_new] = where.try_emplace(part.key, grid_.patches().size());
-      if (is_new) grid_.add_patch(part.key, b, columns.stride);
-      grid_.patches()[at->second].append(part.record.data());
+      Patch& patch = patch_at(part.key);
+      if (patch.here)
+        patch.append(part.record.data());
+      else
+        ++patch.held;
     }
-    const double m = body.material().density * seeds[id].measure;
-    smallest = smallest > 0 ? std::min(smallest, m) : m;
   }
   // what splitting may still make of them
   return smallest * std::pow(corner_count(geometry_.dimension), from - finest) *
@@ -137,6 +159,7 @@ void Simulation::place_points() {
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     plans.push_back(plan_merging(bodies_[b]->layout(), kernel_data_[b].columns));
   step_->set_merge_plans(std::move(plans));
+  if (ranks_) deal_lattices();
   double smallest = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (bodies_[b]->options().material_points()) {
@@ -145,7 +168,8 @@ void Simulation::place_points() {
     }
   detonation_.require_all_lit();
   for (Patch& p : grid_.patches())
-    p.points.pad(kernel_data_[static_cast<std::size_t>(p.body)].columns.mass);
+    if (!p.points.empty())
+      p.points.pad(kernel_data_[static_cast<std::size_t>(p.body)].columns.mass);
   grid_.rebuild(true);
   step_->set_smallest_mass(smallest);
   step_->relink();

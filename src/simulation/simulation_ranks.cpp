@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One scene on several ranks (distribute/distribution.hpp): the first leads, the others do as it
-// says.
+// One scene on several ranks (distribute/distribution.hpp). All make the same scene and begin
+// together; then the first leads, and the others do as it says.
 #include <array>
+#include <functional>
+#include <span>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/parallel.hpp"
 #include "krater/core/ranks.hpp"
 #include "krater/simulation/simulation.hpp"
 
@@ -14,7 +18,7 @@ namespace krater {
 namespace {
 
 /// What the first rank tells the others to do.
-enum class Order { leave, step, assemble };
+enum class Order { leave, step, survey, assemble, restore };
 
 struct Told {
   Order order;
@@ -34,6 +38,8 @@ void together(const Work& work) {
     work();
   } catch (const NumericalError&) {
     throw;
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& e) {
     ranks::give_up(fmt::format("krater: {}", e.what()), 2);
   }
@@ -45,13 +51,14 @@ std::string undistributed(const Scene& scene, const std::vector<std::unique_ptr<
   const MethodOptions& method = scene.method;
   for (const auto& body : bodies) {
     const std::string name = "body '" + body->name() + "': ";
-    if (body->options().rigid()) return name + "a rigid body";
     if (!body->options().material_points()) return name + "elements and particles";
     if (body->pressure_on_grid(scene)) return name + "pressure integrated on the grid";
   }
   if (scene.loads.any()) return "loads: loads on faces, driven faces and damping";
-  if (method.transfer == Transfer::xpic) return "method.transfer: xpic";
-  if (method.reference != Reference::current) return "method.reference: a fixed reference";
+  if (method.reference == Reference::adaptive)
+    return "method.reference: a reference configuration that is renewed";
+  if (method.reference == Reference::initial && scene.contact.active)
+    return "method.reference: contact on a fixed reference";
   if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
     return "contact.normal: logistic_regression";
   return "";
@@ -82,32 +89,76 @@ void Simulation::plan_ranks() {
 
 void Simulation::distribute() {
   if (!ranks_) return;
-  together([this] {
-    ranks_->deal(grid_);
-    step_->relink();
-  });
-  dealt_ = true;
-  assembled_ = false;
+  together([this] { start(); });
+  together_ = true;
 }
 
-void Simulation::follow() {
+void Simulation::follow(const std::function<Checkpoint()>& checkpoint) {
   for (;;) {
     const Told told = tell(Order::leave);
     if (told.order == Order::leave) return;
     try {
       together([&] {
-        if (told.order == Order::assemble)
-          assemble_together();
-        else
-          advance(told.until);
+        switch (told.order) {
+          case Order::step:
+            return advance(told.until);
+          case Order::survey:
+            return survey_together();
+          case Order::assemble:
+            return assemble_together();
+          case Order::restore:
+            return restore_together(checkpoint);
+          case Order::leave:
+            break;
+        }
       });
     } catch (const NumericalError&) {  // the first rank has it too, and says it
+    } catch (const InputError&) {
     }
   }
 }
 
-void Simulation::dismiss() {
-  if (dealt_) tell(Order::leave);
+Simulation::~Simulation() {
+  if (together_ && ranks::first()) tell(Order::leave);
+}
+
+void Simulation::restore(const Checkpoint& checkpoint) {
+  if (!ranks_) {
+    restore_here(checkpoint);
+    return;
+  }
+  tell(Order::restore);
+  together([&] { restore_together([&] { return checkpoint; }); });
+}
+
+/// All of them, or none.
+void Simulation::restore_together(const std::function<Checkpoint()>& checkpoint) {
+  std::string reason;
+  try {
+    release();
+    surveyed_ = -1;
+    restore_here(checkpoint());
+  } catch (const InputError& e) {
+    reason = e.what();
+  } catch (const std::out_of_range&) {
+    reason = "damaged, or written by another version of krater";
+  }
+  for (const auto& text : ranks::all_gather(std::as_bytes(std::span{reason})))
+    if (!text.empty())
+      throw InputError(std::string{reinterpret_cast<const char*>(text.data()), text.size()});
+}
+
+/// Asked for by the first while the others follow, or by all at the start. Once a step.
+void Simulation::survey_together() const {
+  if (surveyed_ == steps()) return;
+  if (together_ && ranks::first()) tell(Order::survey);
+  survey_.assign(static_cast<std::size_t>(set_count()), {});
+  for_each(survey_.size(), [&](std::size_t s) {
+    const int set = static_cast<int>(s);
+    survey_[s] = {totals_of_set(set), deviatoric_energy_of_set(set)};
+  });
+  ranks_->share(grid_, survey_);
+  surveyed_ = steps();
 }
 
 void Simulation::step(double until) {

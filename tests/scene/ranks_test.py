@@ -34,6 +34,13 @@ CASES = {
     "measured": ("ccf_plugging.yaml", ["grid.cell=1.5 mm", "time.end=20 us", "output.frames=10 us",
                                        "method.update=musl", "body_force=[0, 1e6]",
                                        "measures.given={kind: impulse, body: projectile, axis: z, by: plate}"]),
+    # a free rigid body that strikes, loses points at an open side, and feels a body force
+    "rigid": ("ccf_plugging.yaml", ["grid.cell=1.5 mm", "time.end=30 us", "output.frames=15 us", "contact.friction=0.2",
+                                    "bodies.projectile.rigid=free", "body_force=[0, 1e6]"]),
+    # a filtered transfer; a reference configuration that stays
+    "xpic": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.5 mm", "method.transfer=xpic"]),
+    "initial": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.5 mm",
+                                       "method.reference=initial"]),
 }
 
 

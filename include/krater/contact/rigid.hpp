@@ -134,18 +134,17 @@ class RigidBodies {
   /// Velocities of the step; returns the work of loads and drives [J].
   double begin(double dt);
   void rewind();
-  void finish(const BlockGrid& grid, double dt);
+  void finish(double dt);
   /// Positions and velocities of the points of one patch from the body's motion; sums, time-step
   /// limit, leavers. In parallel over patches, after finish().
-  void move(std::size_t p, Patch& patch, const Levels& levels, const BoundarySet& boundary,
-            const PointColumns& columns, unsigned char* leavers);
+  void move(Patch& patch, const Levels& levels, const BoundarySet& boundary,
+            const PointColumns& columns, unsigned char* leavers) const;
   /// Throws NumericalError when a body has run into a closed side.
   void throw_collisions(const BlockGrid& grid) const;
 
  private:
   std::vector<RigidBody> bodies_;
   std::vector<int> of_body_;        ///< index in bodies_, -1
-  std::vector<signed char> sides_;  ///< per patch: 1 + 2 axis + side that a point crossed
   double time_ = 0;
 };
 

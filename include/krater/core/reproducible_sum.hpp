@@ -13,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -95,6 +96,18 @@ class ReproducibleSum {
   std::array<std::int64_t, kDigits> digits_{};  ///< from the top downwards
   std::int32_t top_ = -1;                       ///< place of the first digit; -1: no term yet
   std::int32_t infinite_ = 0;                   ///< terms that are not finite
+};
+
+/// N sums side by side: of the entries of vectors and matrices.
+template <std::size_t N>
+struct ReproducibleSums {
+  std::array<ReproducibleSum, N> all;
+  void add(const double* entries, std::size_t count = N, std::size_t first = 0) {
+    for (std::size_t k = 0; k < count; ++k) all[first + k] += entries[k];
+  }
+  void read(double* entries, std::size_t count = N, std::size_t first = 0) const {
+    for (std::size_t k = 0; k < count; ++k) entries[k] = all[first + k].value();
+  }
 };
 
 }  // namespace krater

@@ -20,7 +20,10 @@
 /// A sum over nodes counts a block where the first patch that reaches it is (NodeBlock::counted),
 /// and does not depend on the order of its terms (core/reproducible_sum.hpp).
 #include <cstdint>
+#include <map>
 #include <set>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,8 +40,9 @@ class Distribution {
   Distribution(int dimension, int width, std::vector<PointColumns> columns)
       : width_{width}, columns_{std::move(columns)}, partition_{dimension} {}
 
-  /// Of a grid that all ranks hold whole: to each its share. Relink afterwards.
-  void deal(BlockGrid& grid);
+  /// At the start, or of a checkpoint: who will have these blocks. The grid's patches are made and
+  /// filled after it.
+  void deal(BlockGrid& grid, const std::map<BlockKey, double>& points);
   /// Shares anew where the most that a rank has to do is more than 1.15 of the mean; true: they
   /// are. Relink afterwards.
   bool rebalance(BlockGrid& grid);
@@ -49,6 +53,11 @@ class Distribution {
   /// What the sweep found of each patch, and what it took out of the computation, to all.
   void share_results(BlockGrid& grid, std::vector<Removed>& removed) const;
   /// Of patches, by number: what the owner found, to all.
+  template <class T>
+  void share(const BlockGrid& grid, std::vector<T>& found) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    share_bytes(grid, sizeof(T), std::as_writable_bytes(std::span{found}));
+  }
   void share_keys(const BlockGrid& grid, std::vector<std::vector<BlockKey>>& found) const;
   /// Points that leave a patch for one of another rank, into the outbox of that patch there.
   void send_points(BlockGrid& grid) const;
@@ -67,8 +76,8 @@ class Distribution {
     int rank;
     std::vector<int> send, receive;  ///< patches, in their order
   };
-  void take_ranks(BlockGrid& grid) const;
   Neighbour& neighbour(int rank);
+  void share_bytes(const BlockGrid& grid, std::size_t size, std::span<std::byte> found) const;
 
   int width_;
   std::vector<PointColumns> columns_;

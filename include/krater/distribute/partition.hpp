@@ -2,9 +2,9 @@
 #pragma once
 /// \file distribute/partition.hpp
 /// Which rank has a block. Space is cut by recursive coordinate bisection of the weighted centres
-/// of blocks (Zoltan's RCB, Boman et al., Scientific Programming 20, 2012): the cuts are known to
-/// all ranks, so that a block which comes later has an owner without a question asked. A cut moves
-/// little when weights do.
+/// of blocks (Zoltan's RCB, Boman et al., Scientific Programming 20, 2012). Every rank knows all
+/// weights and makes the same cuts for itself, so that no message is needed, and a block which comes
+/// later has an owner without a question asked. A cut moves little when weights do.
 #include <memory>
 #include <vector>
 
@@ -23,8 +23,8 @@ class Partition {
     BlockKey key;
     double weight;
   };
-  /// Cut anew; `own`: blocks that this rank speaks for, each of one rank. Collective.
-  void cut(const std::vector<Weighted>& own);
+  /// Cut anew; every rank gives the same blocks.
+  void cut(const std::vector<Weighted>& blocks);
   /// Of any block, by the last cut.
   int owner(const BlockKey& key) const;
   /// It is a test that wants cuts often, whether they are needed or not (KRATER_DEAL=scattered).

@@ -60,6 +60,7 @@ struct PatchResult {
   double max_rate = 0;                    ///< 1/dt at CFL 1, theory 12 [1/s]
   int limiter = 0;                        ///< 0 wave, 1 flow, 2 dilatation
   int limiting_point = 0;                 ///< index in the patch; after the gather the point's id
+  int crossed = 0;  ///< of a rigid body: 1 + 2 axis + closed side that a point has crossed; 0: none
   double kinetic = 0;                     ///< [J], affine part included
   double internal = 0;                    ///< [J]
   double external_work = 0;               ///< [J] of body forces in the step
@@ -190,7 +191,7 @@ class BlockGrid {
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
   void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
   /// Which rank has the patches of a block; this one is `own` and holds the nodes and tiles of what
-  /// is up to `width` blocks around its patches. Before rebuild().
+  /// is up to `width` blocks around its patches. Before patches are made.
   void set_owners(std::function<int(const BlockKey&)> owner, int own, int width) {
     owner_ = std::move(owner);
     own_ = own;

@@ -62,6 +62,10 @@ class Selections {
   std::deque<Kept> kept_;                          // references stay valid
 };
 
+/// A row of its history, or its summary, reads single points: its measures do, but for those of
+/// impulses, or what looks for torn points.
+bool looks_at_points(const Scene& scene);
+
 class Measurements {
  public:
   /// Of a simulation at its start: before a checkpoint is restored.

@@ -4,6 +4,7 @@
 /// A scene assembled and stepped: bodies, grid, boundaries, kernels of the best instruction set,
 /// time-step control. Knows nothing of files; what it hands out are the plain structs of
 /// output/results.hpp.
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,12 @@ struct Totals {
   Totals& operator+=(const Totals& other);
 };
 
+/// Sums over the points of one set.
+struct SetSums {
+  Totals totals;
+  double deviatoric = 0;  ///< elastic energy of the deviator [J]
+};
+
 /// What a fault means, in words.
 const char* text_of(FaultKind kind);
 
@@ -45,6 +52,7 @@ class Simulation {
   explicit Simulation(const Scene& scene, IsaLevel level = best_isa_level());
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
+  ~Simulation();  ///< of the first of several ranks: the others may go
 
   const Scene& scene() const { return scene_; }
   double time() const { return clock_.time(); }
@@ -56,13 +64,13 @@ class Simulation {
   bool done() const { return time() >= scene_.time.end; }
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
-  /// Where several ranks compute the scene (distribute/distribution.hpp): every rank has all of it
-  /// until this, then its share. Throws InputError. All that follows is for the first to call, but
-  /// follow().
+  /// Where several ranks compute the scene (distribute/distribution.hpp), each has its share of the
+  /// points from the start; here they begin together, when all are ready. Throws InputError, on all
+  /// of them. All that follows is for the first to call, but follow().
   void distribute();
-  /// The other ranks do what the first one does, until it lets them go ...
-  void follow();
-  void dismiss();  ///< ... as it does so
+  /// The other ranks do what the first one does, until it is gone. `checkpoint`: where it restores
+  /// one.
+  void follow(const std::function<Checkpoint()>& checkpoint);
   /// All points come to the first rank, to be read there until the next step.
   void assemble();
   const Distribution* distribution() const { return ranks_.get(); }  ///< null: one rank
@@ -103,6 +111,7 @@ class Simulation {
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
   std::vector<Totals> totals_by_body() const;
+  double deviatoric_energy() const;  ///< elastic [J]
   Totals totals() const;  ///< of all bodies
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
@@ -141,6 +150,11 @@ class Simulation {
 
  private:
   void plan_ranks();
+  void deal_lattices();
+  void deal_saved(const Checkpoint& checkpoint);
+  void start();  ///< what needs all points; the ranks do it together
+  void restore_together(const std::function<Checkpoint()>& checkpoint);
+  void restore_here(const Checkpoint& checkpoint);
   void advance(double until);
   void fit_points();
   void assemble_together();
@@ -172,6 +186,9 @@ class Simulation {
   void restore_mesh(int body, const Checkpoint& checkpoint);
   std::unique_ptr<NodeLoads> make_loads();
   Totals totals_of_set(int s) const;
+  double deviatoric_energy_of_set(int s) const;
+  std::vector<SetSums> set_sums(bool deviatoric) const;
+  void survey_together() const;
   void save_levels(Checkpoint& out) const;
   void restore_levels(const Checkpoint& checkpoint);
   void find_levels();
@@ -179,6 +196,7 @@ class Simulation {
   bool may_split(const Body& body) const;
   double place_body(int body);  ///< smallest mass of a point that it may come to [kg]
   int coarsest_level(int body);
+  void add_rigid_bodies();
   void place_rigid_bodies();
   void save_body(int body, Checkpoint& out) const;
   void restore_body(int body, const Checkpoint& checkpoint);
@@ -218,8 +236,10 @@ class Simulation {
   Impulses impulses_;
   std::unique_ptr<NodeLoads> loads_;
   std::unique_ptr<Distribution> ranks_;  ///< null: one rank has all
-  bool dealt_ = false;                   ///< every rank has its share
-  bool assembled_ = true;                ///< points of other ranks are on the first, too
+  mutable std::vector<SetSums> survey_;  ///< where points are elsewhere ...
+  mutable std::int64_t surveyed_ = -1;   ///< ... and of which step
+  bool together_ = false;                ///< the ranks have begun
+  bool assembled_ = false;               ///< points of other ranks are on the first, too
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;

@@ -362,7 +362,7 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
     if (!patch.here) return;
     if (patch.tile.state == Tile::State::ahead) patch.tile.state = Tile::State::stale;
     if (rigid_.any() && rigid_.find(patch.body)) {
-      if (moves) move_rigid(p, scratch());
+      if (moves) note_cost(patch, [&] { move_rigid(p, scratch()); });
       return;
     }
     const AfterGather then{moves, ahead};

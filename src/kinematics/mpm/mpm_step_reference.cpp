@@ -17,12 +17,14 @@ void MpmStep::measure_gaps() {
   };
   for_each(grid_.patches().size(), [&](std::size_t p) {
     Patch& patch = grid_.patches()[p];
+    if (!patch.here) return;
     if (std::none_of(patch.links.node_blocks.begin(), patch.links.node_blocks.begin() + corners,
                      at_wall))
       return;
     plain_.scatter(patch, position_as_velocity_[static_cast<unsigned>(patch.body)], s, scratch());
     patch.tile.state = Tile::State::stale;
   });
+  if (ranks_ != nullptr) ranks_->exchange_tiles(grid_);
   for (const std::size_t n : waiting_blocks_)
     if (grid_.node_blocks()[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks()[n]);
   boundary_.note_gaps();

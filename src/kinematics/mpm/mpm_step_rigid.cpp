@@ -20,7 +20,7 @@ void MpmStep::begin_rigid(double dt, double& kinetic) {
 // A turn keeps the angular momentum, not quite the energy; a rigid body has no heat to keep it in.
 void MpmStep::finish_rigid(double dt) {
   const double before = rigid_.kinetic();
-  rigid_.finish(grid_, dt);
+  rigid_.finish(dt);
   audit_.rigid_loss += before - rigid_.kinetic();
 }
 
@@ -31,7 +31,7 @@ void MpmStep::move_rigid(std::size_t p, const SweepScratch& w) {
   const bool moves = rigid_.find(patch.body)->moves();
   patch.tile.state = moves ? Tile::State::stale : Tile::State::asleep;
   if (!moves) return;
-  rigid_.move(p, patch, grid_.levels(), boundary_, columns, w.leavers);
+  rigid_.move(patch, grid_.levels(), boundary_, columns, w.leavers);
   name_limit(patch);
   removed_[p] = collect_leavers(patch, grid_.levels(), boundary_, columns, w.leavers);
 }

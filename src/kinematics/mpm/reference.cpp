@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/kinematics/frames.hpp"
 
 namespace krater {
@@ -154,9 +155,11 @@ std::array<double, 3> push_from_walls(BlockGrid& grid, const std::vector<BodyKer
       }
     patch.points.pad(c.mass);
   });
+  ReproducibleSums<3> sums;
+  for (const auto& f : force) sums.add(f.data());
+  ranks::sum(sums.all);
   std::array<double, 3> total{};
-  for (const auto& f : force)
-    for (std::size_t a = 0; a < 3; ++a) total[a] += f[a];
+  sums.read(total.data());
   return total;
 }
 

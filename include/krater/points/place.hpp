@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+/// \file points/place.hpp
+/// One point among others, read component by component.
 #include "krater/points/layout.hpp"
 
 namespace krater {
