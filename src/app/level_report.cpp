@@ -34,7 +34,7 @@ LevelAccount account(const Simulation& sim, int coarser) {
   for (const Patch& patch : sim.grid().patches()) {
     LevelCount& count = out.levels[patch.key.level];
     count.cell = sim.grid().geometry(patch.key.level).h / coarser;
-    count.points += times * patch.points.count();
+    count.points += times * patch.count();
     count.bytes +=
         times * 8.0 * static_cast<double>(patch.points.capacity() + patch.tile.nodes.size());
     count.blocks += times;

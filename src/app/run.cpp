@@ -166,7 +166,7 @@ std::vector<Quantity> Runner::history_titles() const {
 void Runner::write_history() { results_.write_history(history_columns()); }
 
 void Runner::write_frame(double time) {
-  sim_.assemble();
+  if (draws_all_points(scene_)) sim_.assemble();
   if (sim_.steps() > 0) sim_.look_for_overlap();
   OutputFrame frame = make_frame(sim_, frame_);
   frame.time = time;
@@ -175,7 +175,6 @@ void Runner::write_frame(double time) {
 }
 
 void Runner::write_checkpoint() {
-  sim_.assemble();
   Checkpoint c = sim_.save();
   c.blobs.push_back({"output", {1}, {}, {frame_}, {}});
   measurements_.save(c, scene_);
@@ -252,7 +251,10 @@ int Runner::go() {
       tell_progress(progress);
       watch_time_step();
     }
-    if (!sim_.done()) sim_.judge_energy(true);  // the answer was there before the end
+    if (!sim_.done()) {  // the answer was there before the end
+      sim_.assemble();
+      sim_.judge_energy(true);
+    }
   } catch (const NumericalError& e) {
     return fail(e.what(), progress);
   }

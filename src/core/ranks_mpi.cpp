@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "krater/core/errors.hpp"
 #include "krater/core/ranks.hpp"
@@ -21,7 +22,8 @@ struct World {
   bool started = false;
   int speech = -1;  ///< standard error of a rank that is silent otherwise
   MPI_Datatype sum_type = MPI_DATATYPE_NULL;
-  MPI_Op sum_op = MPI_OP_NULL;
+  MPI_Op sum_op = MPI_OP_NULL, both_op = MPI_OP_NULL;
+  std::size_t sums = 0, greatest = 0;  ///< that reduce() lays out
   Traffic traffic;
 };
 World world;
@@ -52,6 +54,29 @@ void add_sums(void* in, void* inout, int* count, MPI_Datatype*) {
   for (int i = 0; i < *count; ++i) sums[i] += terms[i];
 }
 
+/// Of what reduce() lays out: sums, then numbers.
+void join(void* in, void* inout, int* count, MPI_Datatype*) {
+  const auto* from = static_cast<const std::byte*>(in);
+  auto* to = static_cast<std::byte*>(inout);
+  for (int i = 0; i < *count; ++i) {
+    for (std::size_t k = 0; k < world.sums; ++k, from += sizeof(ReproducibleSum)) {
+      ReproducibleSum a, b;
+      std::memcpy(&a, from, sizeof(a));
+      std::memcpy(&b, to, sizeof(b));
+      b += a;
+      std::memcpy(to, &b, sizeof(b));
+      to += sizeof(b);
+    }
+    for (std::size_t k = 0; k < world.greatest; ++k, from += sizeof(double), to += sizeof(double)) {
+      double a, b;
+      std::memcpy(&a, from, sizeof(a));
+      std::memcpy(&b, to, sizeof(b));
+      b = std::max(a, b);
+      std::memcpy(to, &b, sizeof(b));
+    }
+  }
+}
+
 /// A launcher tells its children who they are.
 constexpr std::array<const char*, 3> kLaunched{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
 
@@ -79,6 +104,7 @@ void start(int& argc, char**& argv) {
   MPI_Type_contiguous(sizeof(ReproducibleSum), MPI_BYTE, &world.sum_type);
   MPI_Type_commit(&world.sum_type);
   MPI_Op_create(add_sums, 1, &world.sum_op);
+  MPI_Op_create(join, 1, &world.both_op);
   if (world.index == 0) return;
   world.speech = dup(STDERR_FILENO);
   const int nowhere = open("/dev/null", O_WRONLY);
@@ -90,6 +116,7 @@ void start(int& argc, char**& argv) {
 void finish() {
   if (!world.started) return;
   MPI_Op_free(&world.sum_op);
+  MPI_Op_free(&world.both_op);
   MPI_Type_free(&world.sum_type);
   MPI_Finalize();
   world.started = false;
@@ -144,25 +171,57 @@ double max(double x) {
   return x;
 }
 
-std::vector<std::vector<std::byte>> all_gather(std::span<const std::byte> own) {
-  if (alone()) return {{own.begin(), own.end()}};
+void reduce(std::span<ReproducibleSum> sums, std::span<double> greatest) {
+  if (alone()) return;
   const Clock clock;
-  sent(own.size() + sizeof(int));
-  const auto ranks = static_cast<std::size_t>(world.count);
-  std::vector<int> sizes(ranks), starts(ranks);
-  const int size = as_count(own.size());
-  MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  const std::size_t bytes = sums.size_bytes() + greatest.size_bytes();
+  sent(bytes);
+  std::vector<std::byte> all(bytes);
+  std::memcpy(all.data(), sums.data(), sums.size_bytes());
+  std::memcpy(all.data() + sums.size_bytes(), greatest.data(), greatest.size_bytes());
+  MPI_Datatype both = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(as_count(bytes), MPI_BYTE, &both);
+  MPI_Type_commit(&both);
+  world.sums = sums.size();
+  world.greatest = greatest.size();
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), 1, both, world.both_op, MPI_COMM_WORLD);
+  MPI_Type_free(&both);
+  std::memcpy(sums.data(), all.data(), sums.size_bytes());
+  std::memcpy(greatest.data(), all.data() + sums.size_bytes(), greatest.size_bytes());
+}
+
+std::vector<std::byte> all_gather(std::span<const std::byte> own, const std::vector<int>& sizes) {
+  if (alone()) return {own.begin(), own.end()};
+  const Clock clock;
+  sent(own.size());
+  std::vector<int> starts;
   std::size_t all = 0;
-  for (std::size_t r = 0; r < ranks; ++r) {
-    starts[r] = as_count(all);
-    all += static_cast<std::size_t>(sizes[r]);
+  for (const int size : sizes) {
+    starts.push_back(as_count(all));
+    all += static_cast<std::size_t>(size);
   }
   std::vector<std::byte> bytes(all);
-  MPI_Allgatherv(own.data(), size, MPI_BYTE, bytes.data(), sizes.data(), starts.data(), MPI_BYTE,
-                 MPI_COMM_WORLD);
-  std::vector<std::vector<std::byte>> out(ranks);
-  for (std::size_t r = 0; r < ranks; ++r)
-    out[r].assign(bytes.begin() + starts[r], bytes.begin() + starts[r] + sizes[r]);
+  MPI_Allgatherv(own.data(), as_count(own.size()), MPI_BYTE, bytes.data(), sizes.data(),
+                 starts.data(), MPI_BYTE, MPI_COMM_WORLD);
+  return bytes;
+}
+
+std::vector<std::vector<std::byte>> all_gather(std::span<const std::byte> own) {
+  if (alone()) return {{own.begin(), own.end()}};
+  std::vector<int> sizes(static_cast<std::size_t>(world.count));
+  const int size = as_count(own.size());
+  {
+    const Clock clock;
+    sent(sizeof(size));
+    MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  }
+  const std::vector<std::byte> bytes = all_gather(own, sizes);
+  std::vector<std::vector<std::byte>> out;
+  auto at = bytes.begin();
+  for (const int n : sizes) {
+    out.emplace_back(at, at + n);
+    at += n;
+  }
   return out;
 }
 
@@ -173,28 +232,45 @@ void broadcast(std::span<double> data) {
   MPI_Bcast(data.data(), as_count(data.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
 }
 
-std::vector<Message> exchange(const std::vector<Message>& out, const std::vector<int>& from) {
-  if (alone()) return {};
+namespace {
+
+constexpr int kTag = 1;  // messages between two ranks do not overtake each other
+std::vector<MPI_Request> under_way;
+
+}  // namespace
+
+void send(const std::vector<Message>& out) {
+  if (alone()) return;
   const Clock clock;
-  constexpr int kTag = 1;  // messages between two ranks do not overtake each other
-  std::vector<MPI_Request> requests(out.size());
-  for (std::size_t m = 0; m < out.size(); ++m) {
-    sent(out[m].data.size() * sizeof(double));
-    MPI_Isend(out[m].data.data(), as_count(out[m].data.size()), MPI_DOUBLE, out[m].rank, kTag,
-              MPI_COMM_WORLD, &requests[m]);
+  for (const Message& message : out) {
+    sent(message.data.size() * sizeof(double));
+    MPI_Isend(message.data.data(), as_count(message.data.size()), MPI_DOUBLE, message.rank, kTag,
+              MPI_COMM_WORLD, &under_way.emplace_back());
   }
-  std::vector<Message> in;
-  for (const int rank : from) {
+}
+
+void receive(std::vector<Message>& in) {
+  if (alone()) return;
+  const Clock clock;
+  for (Message& message : in) {
     MPI_Status status;
-    MPI_Probe(rank, kTag, MPI_COMM_WORLD, &status);
+    MPI_Probe(message.rank, kTag, MPI_COMM_WORLD, &status);
     int size = 0;
     MPI_Get_count(&status, MPI_DOUBLE, &size);
-    Message& message = in.emplace_back();
-    message.rank = rank;
     message.data.resize(static_cast<std::size_t>(size));
-    MPI_Recv(message.data.data(), size, MPI_DOUBLE, rank, kTag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    MPI_Recv(message.data.data(), size, MPI_DOUBLE, message.rank, kTag, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
   }
-  MPI_Waitall(as_count(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  MPI_Waitall(as_count(under_way.size()), under_way.data(), MPI_STATUSES_IGNORE);
+  under_way.clear();
+}
+
+std::vector<Message> exchange(const std::vector<Message>& out, const std::vector<int>& from) {
+  std::vector<Message> in;
+  if (alone()) return in;
+  for (const int rank : from) in.push_back({rank, {}});
+  send(out);
+  receive(in);
   return in;
 }
 

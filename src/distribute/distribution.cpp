@@ -6,12 +6,13 @@
 #include <type_traits>
 
 #include "krater/core/ranks.hpp"
+#include "krater/grid/neighbourhood.hpp"
 
 namespace krater {
 
 namespace {
 
-constexpr double kUneven = 1.15;    ///< most over mean from which blocks are dealt out anew
+constexpr double kUneven = 1.05;    ///< most over mean from which blocks are dealt out anew
 constexpr int kSettlingSteps = 50;  ///< and not before so many steps
 constexpr int kRestlessSteps = 5;
 
@@ -162,40 +163,49 @@ void Distribution::relink(const BlockGrid& grid) {
   for (Neighbour& n : neighbours_) {
     std::vector<BlockKey> keys;
     for (const int p : n.receive) keys.push_back(grid.patches()[static_cast<std::size_t>(p)].key);
-    keys = keys_within(std::move(keys), width_, grid.geometry().dimension);
+    const Neighbourhood theirs{keys, width_, grid.geometry().dimension};
     for (std::size_t p = 0; p < grid.patches().size(); ++p) {
       const Patch& patch = grid.patches()[p];
-      if (!patch.here || !std::binary_search(keys.begin(), keys.end(), patch.key)) continue;
+      if (!patch.here || !theirs.holds(patch.key)) continue;
       n.send.push_back(static_cast<int>(p));
       const std::pair name{std::pair{n.rank, patch.body}, patch.key};
       if (known_.count(name) > 0) still.insert(name);
     }
   }
   known_ = std::move(still);
+  sent_.resize(neighbours_.size());
+  received_.resize(neighbours_.size());
+  goes_out_.assign(grid.patches().size(), 0);
+  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
+    sent_[n].rank = received_[n].rank = neighbours_[n].rank;
+    for (const int p : neighbours_[n].send) goes_out_[static_cast<std::size_t>(p)] = 1;
+  }
 }
 
-void Distribution::exchange_tiles(BlockGrid& grid) {
-  std::vector<ranks::Message> out;
-  std::vector<int> from;
+void Distribution::send_tiles(BlockGrid& grid) {
   const auto size = static_cast<std::size_t>(tile_nodes(grid.geometry().dimension)) * kNodeDoubles;
-  for (const Neighbour& n : neighbours_) {
-    ranks::Message& message = out.emplace_back();
-    message.rank = n.rank;
-    from.push_back(n.rank);
-    for (const int p : n.send) {
-      Patch& patch = grid.patches()[static_cast<std::size_t>(p)];
+  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
+    std::vector<double>& data = sent_[n].data;
+    data.clear();
+    for (const int p : neighbours_[n].send) {
+      const Patch& patch = grid.patches()[static_cast<std::size_t>(p)];
       const bool asleep = patch.tile.state == Tile::State::asleep;
-      const bool is_new = known_.insert({{n.rank, patch.body}, patch.key}).second;
-      message.data.push_back(asleep ? 1 : 0);
-      message.data.push_back(asleep && !is_new ? 0 : 1);
+      const bool is_new = known_.insert({{neighbours_[n].rank, patch.body}, patch.key}).second;
+      data.push_back(asleep ? 1 : 0);
+      data.push_back(asleep && !is_new ? 0 : 1);
       if (!asleep || is_new)
-        message.data.insert(message.data.end(), patch.tile.data(), patch.tile.data() + size);
+        data.insert(data.end(), patch.tile.data(), patch.tile.data() + size);
     }
   }
-  const std::vector<ranks::Message> in = ranks::exchange(out, from);
-  for (std::size_t m = 0; m < in.size(); ++m) {
-    const double* at = in[m].data.data();
-    for (const int p : neighbours_[m].receive) {
+  ranks::send(sent_);
+}
+
+void Distribution::receive_tiles(BlockGrid& grid) {
+  const auto size = static_cast<std::size_t>(tile_nodes(grid.geometry().dimension)) * kNodeDoubles;
+  ranks::receive(received_);
+  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
+    const double* at = received_[n].data.data();
+    for (const int p : neighbours_[n].receive) {
       Patch& patch = grid.patches()[static_cast<std::size_t>(p)];
       patch.tile.state = *at++ > 0 ? Tile::State::asleep : Tile::State::ahead;
       if (!(*at++ > 0)) continue;
@@ -233,12 +243,16 @@ void Distribution::share_bytes(const BlockGrid& grid, std::size_t size,
       const auto piece = found.subspan(p * size, size);
       own.insert(own.end(), piece.begin(), piece.end());
     }
-  const auto all = ranks::all_gather(own);
-  std::vector<std::size_t> at(all.size());
+  std::vector<int> sizes(static_cast<std::size_t>(ranks::count()));
+  for (const Patch& patch : grid.patches())
+    sizes[static_cast<std::size_t>(patch.rank)] += static_cast<int>(size);
+  const std::vector<std::byte> all = ranks::all_gather(own, sizes);
+  std::vector<std::size_t> at(sizes.size());
+  for (std::size_t r = 1; r < at.size(); ++r)
+    at[r] = at[r - 1] + static_cast<std::size_t>(sizes[r - 1]);
   for (std::size_t p = 0; p < grid.patches().size(); ++p) {
     const auto r = static_cast<std::size_t>(grid.patches()[p].rank);
-    if (!grid.patches()[p].here)
-      std::memcpy(found.data() + p * size, all[r].data() + at[r], size);
+    if (!grid.patches()[p].here) std::memcpy(found.data() + p * size, all.data() + at[r], size);
     at[r] += size;
   }
 }
@@ -313,6 +327,21 @@ void Distribution::share_counts(BlockGrid& grid) const {
   for (const Patch& patch : grid.patches()) counts.push_back(patch.points.count());
   share(grid, counts);
   for (std::size_t p = 0; p < counts.size(); ++p) grid.patches()[p].held = counts[p];
+}
+
+std::vector<ranks::Message> Distribution::exchange_any(std::vector<std::vector<double>> by_rank) {
+  std::vector<std::byte> sends(by_rank.size());
+  std::vector<ranks::Message> out;
+  for (std::size_t r = 0; r < by_rank.size(); ++r) {
+    sends[r] = by_rank[r].empty() ? std::byte{0} : std::byte{1};
+    if (!by_rank[r].empty()) out.push_back({static_cast<int>(r), std::move(by_rank[r])});
+  }
+  const auto all = ranks::all_gather(sends);
+  std::vector<int> from;
+  for (std::size_t r = 0; r < all.size(); ++r)
+    if (all[r][static_cast<std::size_t>(ranks::index())] != std::byte{0})
+      from.push_back(static_cast<int>(r));
+  return ranks::exchange(out, from);
 }
 
 void Distribution::assemble(BlockGrid& grid) const {

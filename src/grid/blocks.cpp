@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "krater/grid/neighbourhood.hpp"
+
 namespace krater {
 
 namespace {
@@ -116,26 +118,6 @@ void BlockGrid::rebuild(bool drop_empty) {
   link_patches();
 }
 
-std::vector<BlockKey> keys_within(std::vector<BlockKey> keys, int width, int dimension) {
-  const auto tidy = [&keys] {
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  };
-  tidy();
-  for (int a = 0; a < dimension; ++a) {
-    const std::size_t before = keys.size();
-    for (std::size_t k = 0; k < before; ++k)
-      for (int offset = -width; offset <= width; ++offset) {
-        if (offset == 0) continue;
-        BlockKey key = keys[k];
-        key.i[static_cast<std::size_t>(a)] += offset;
-        keys.push_back(key);
-      }
-    tidy();
-  }
-  return keys;
-}
-
 /// Which patches this rank has, and which lie around these.
 void BlockGrid::find_near() {
   std::vector<BlockKey> own;
@@ -143,9 +125,8 @@ void BlockGrid::find_near() {
     patch.here = patch.rank == own_;
     if (patch.here) own.push_back(patch.key);
   }
-  own = keys_within(std::move(own), width_, geometry().dimension);
-  for (Patch& patch : patches_)
-    patch.near = patch.here || std::binary_search(own.begin(), own.end(), patch.key);
+  const Neighbourhood around{own, width_, geometry().dimension};
+  for (Patch& patch : patches_) patch.near = patch.here || around.holds(patch.key);
 }
 
 /// Blocks about those of masters where cells are finer: contact looks at their volumes.
@@ -238,8 +219,25 @@ void BlockGrid::link_patches() {
       NodeBlock& block = node_blocks_[static_cast<std::size_t>(
           patches_[p].links.node_blocks[static_cast<std::size_t>(c)])];
       if (block.tiles == 0) block.counted = patches_[p].here;
+      block.whole = block.whole && patches_[p].here;
       tile_refs_[static_cast<std::size_t>(block.first_tile + block.tiles++)] = {static_cast<int>(p),
                                                                                 c};
+    }
+  if (owner_) count_masters();
+}
+
+/// What no tile reaches follows from tied nodes alone, and is counted where the first block of these
+/// is.
+void BlockGrid::count_masters() {
+  std::vector<bool> known(node_blocks_.size());
+  for (const NodeBlock& block : node_blocks_)
+    for (int c = 0; c < corner_count(geometry().dimension) && block.tied != 0; ++c) {
+      const auto key = master_block(block.key, c, geometry().dimension);
+      const int m = key ? find_node_block(*key, block.field) : -1;
+      if (m < 0 || known[static_cast<std::size_t>(m)]) continue;
+      known[static_cast<std::size_t>(m)] = true;
+      NodeBlock& master = node_blocks_[static_cast<std::size_t>(m)];
+      if (master.tiles == 0) master.counted = block.counted;
     }
 }
 

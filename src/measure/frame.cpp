@@ -13,7 +13,12 @@ namespace krater {
 
 namespace {
 
-using PointList = std::shared_ptr<const std::vector<PointPlace>>;
+/// Points of a body in the order of their ids: all of them, or a slab.
+struct DrawnPoints {
+  std::size_t first = 0;
+  BroughtPoints here;
+};
+using PointList = std::shared_ptr<const DrawnPoints>;
 
 const std::vector<std::string>& tensor_names(Frame f) {
   static const std::vector<std::string> cartesian{"xx", "yy", "zz", "yz", "xz", "xy"};
@@ -53,7 +58,9 @@ Rows<T> numbered_rows(int width, Put put) {
 /// Rows of `width` numbers, each made by `put(point, row)`.
 template <class T, class Put>
 Rows<T> rows_of(const PointList& points, int width, Put put) {
-  return numbered_rows<T>(width, [points, put](std::size_t i, T* row) { put((*points)[i], row); });
+  return numbered_rows<T>(width, [points, put](std::size_t i, T* row) {
+    put(points->here.places[i - points->first], row);
+  });
 }
 
 /// Values of a column, vectors along grid axes widened to space.
@@ -98,12 +105,14 @@ void add_stress(const Simulation& sim, const Body& body, const PointList& points
 /// Which sets of a body: elements and the points that they became are drawn apart.
 enum class DrawnSets { all, elements, points };
 
-PointList places_by_id(const Simulation& sim, int body, DrawnSets part) {
-  auto places = std::make_shared<std::vector<PointPlace>>();
-  for (const auto& [set, i] : sim.points_by_id(body))
-    if (part == DrawnSets::all || sim.is_mesh_set(set) == (part == DrawnSets::elements))
-      places->push_back({sim.set(set).points->point(i)});
-  return places;
+std::shared_ptr<DrawnPoints> points_at_hand(const Simulation& sim, int body, DrawnSets part) {
+  auto points = std::make_shared<DrawnPoints>();
+  for (const auto& [set, i] : sim.points_by_id(body)) {
+    if (part != DrawnSets::all && sim.is_mesh_set(set) != (part == DrawnSets::elements)) continue;
+    points->here.places.push_back({sim.set(set).points->point(i)});
+    points->here.levels.push_back(sim.geometry_of(set).level);
+  }
+  return points;
 }
 
 /// A vector along grid axes, in space.
@@ -143,17 +152,15 @@ FrameMesh frame_mesh(const Simulation& sim, int s) {
 }
 
 /// The level of the cells about each point.
-FieldArray level_field(const Simulation& sim, int body) {
-  const auto levels = std::make_shared<std::vector<double>>();
-  for (const auto& [set, i] : sim.points_by_id(body)) levels->push_back(sim.geometry_of(set).level);
+FieldArray level_field(const PointList& points) {
   return {"level",
           "1",
           "of the cells about the point, which are 2^-level grid.cell wide",
           1,
           {},
-          [levels](std::size_t first, std::size_t count, double* to) {
-            std::copy_n(levels->data() + first, count, to);
-          }};
+          numbered_rows<double>(1, [points](std::size_t i, double* to) {
+            *to = points->here.levels[i - points->first];
+          })};
 }
 
 /// How far points are stretched, and which have lost a side (simulation/torn_points.hpp).
@@ -181,10 +188,21 @@ void add_fracture(const Simulation& sim, int body, BodyFrame& out) {
 BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
   const Body& body = *sim.bodies()[static_cast<std::size_t>(b)];
   const Frame frame = sim.scene().frame;
-  const PointList points = places_by_id(sim, b, part);
   BodyFrame out;
   out.body = body.name() + (part == DrawnSets::points ? kPointsOf : "");
-  out.points = points->size();
+  std::shared_ptr<DrawnPoints> drawn;
+  if (sim.has_all_points()) {
+    drawn = points_at_hand(sim, b, part);
+    out.points = drawn->here.places.size();
+  } else {
+    drawn = std::make_shared<DrawnPoints>();
+    out.points = sim.point_count(b);
+    out.bring = [drawn, &sim, b](std::size_t first, std::size_t count) {
+      drawn->first = first;
+      drawn->here = sim.bring(b, first, count);
+    };
+  }
+  const PointList points = drawn;
   const int id = body.slot(field::Id::info), x = body.slot(field::Position::info);
   out.ids = rows_of<std::int64_t>(points, 1, [id](PointPlace at, std::int64_t* row) {
     *row = static_cast<std::int64_t>(at(id));
@@ -199,7 +217,7 @@ BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
       out.fields.push_back(column_array(sim, c, points));
   add_stress(sim, body, points, out);
   if (!sim.scene().grid.refine.empty() && body.options().material_points())
-    out.fields.push_back(level_field(sim, b));
+    out.fields.push_back(level_field(points));
   if (sim.scene().method.numerical_fracture != NumericalFracture::ignore &&
       body.options().material_points() && !body.options().rigid())
     add_fracture(sim, b, out);
@@ -208,7 +226,7 @@ BodyFrame body_frame(const Simulation& sim, int b, DrawnSets part) {
   if (!asked_for(sim.scene(), kFragmentField)) return out;
   auto numbers = fragment_numbers(sim, b);  // elements come first
   if (part == DrawnSets::points)
-    numbers.erase(numbers.begin(), numbers.end() - static_cast<std::ptrdiff_t>(points->size()));
+    numbers.erase(numbers.begin(), numbers.end() - static_cast<std::ptrdiff_t>(out.points));
   const auto pieces = std::make_shared<const std::vector<double>>(std::move(numbers));
   out.fields.push_back({kFragmentField,
                         "1",

@@ -247,6 +247,12 @@ bool looks_at_points(const Scene& scene) {
          });
 }
 
+bool draws_all_points(const Scene& scene) {
+  const std::vector<std::string>& fields = scene.output.fields;
+  return scene.method.numerical_fracture == NumericalFracture::watch ||
+         std::find(fields.begin(), fields.end(), kFragmentField) != fields.end();
+}
+
 Measurements::Measurements(const Simulation& sim) : selections_{sim.scene()} {
   Selections selections{sim.scene()};  // of the start only: they do not stay
   for (const MeasureOptions& m : sim.scene().measures) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <system_error>
@@ -42,69 +44,105 @@ bool is_usable_name(const std::string& name) {
   return !name.empty() && name != "." && name.find_first_of("/:\n") == std::string::npos;
 }
 
-template <class T>
-Node write_array(const Node& group, std::size_t rows, const std::string& name, int components,
-                 const Rows<T>& values) {
-  const Shape shape =
-      components == 1 ? Shape{rows} : Shape{rows, static_cast<std::uint64_t>(components)};
-  return group.make_packed<T>(name, shape, values);
-}
+/// The arrays of one group: each at once, or all of them slab by slab where points are brought.
+class GroupWriter {
+ public:
+  GroupWriter(const Node& group, std::size_t rows,
+              std::function<void(std::size_t, std::size_t)> bring = {})
+      : group_{group}, rows_{rows}, bring_{std::move(bring)} {}
 
-void write_field(const Node& group, const BodyFrame& body, std::size_t rows,
-                 const FieldArray& field) {
+  template <class T>
+  std::shared_ptr<const Node> add(const std::string& name, int components, const Rows<T>& values) {
+    const Shape shape =
+        components == 1 ? Shape{rows_} : Shape{rows_, static_cast<std::uint64_t>(components)};
+    if (!bring_ || rows_ < kFewRows) {
+      if (bring_ && rows_ > 0) bring_(0, rows_);
+      return std::make_shared<const Node>(group_.make_packed<T>(name, shape, values));
+    }
+    std::uint64_t height = 0;
+    const auto dataset =
+        std::make_shared<const Node>(group_.make_packed_space<T>(name, shape, height));
+    tallest_ = std::max(tallest_, height);
+    later_.push_back([dataset, shape, height, values](std::uint64_t first, std::uint64_t end) {
+      dataset->pack_rows(shape, height, values, first, end);
+    });
+    return dataset;
+  }
+  /// When all are added.
+  void finish() {
+    for (std::uint64_t first = 0; first < rows_ && !later_.empty(); first += kSlab) {
+      const std::uint64_t end = std::min<std::uint64_t>(rows_, first + kSlab);
+      bring_(first, std::min<std::uint64_t>(rows_, end + tallest_) - first);
+      for (const auto& write : later_) write(first, end);
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t kSlab = 1U << 17U, kFewRows = 1024;
+  const Node& group_;
+  std::size_t rows_;
+  std::function<void(std::size_t, std::size_t)> bring_;
+  std::uint64_t tallest_ = 0;
+  std::vector<std::function<void(std::uint64_t, std::uint64_t)>> later_;
+};
+
+void write_field(GroupWriter& arrays, const BodyFrame& body, const FieldArray& field) {
   require(is_usable_name(field.name), body, "unusable name of a field '" + field.name + "'");
   require(field.components > 0 && field.values, body, "no values of '" + field.name + "'");
   require(field.component_names.empty() ||
               field.component_names.size() == static_cast<std::size_t>(field.components),
           body, "wrong number of component names of '" + field.name + "'");
-  const Node dataset = write_array(group, rows, field.name, field.components, field.values);
-  dataset.set("unit", field.unit);
-  dataset.set("meaning", field.meaning);
-  if (!field.component_names.empty()) dataset.set("component_names", field.component_names);
+  const auto dataset = arrays.add(field.name, field.components, field.values);
+  dataset->set("unit", field.unit);
+  dataset->set("meaning", field.meaning);
+  if (!field.component_names.empty()) dataset->set("component_names", field.component_names);
 }
 
-void write_coordinates(const Node& group, std::size_t rows, const Rows<double>& values) {
-  const Node coordinates = write_array(group, rows, "coordinates", 3, values);
-  coordinates.set("unit", std::string("m"));
-  coordinates.set("meaning", std::string("position (x, y, z); axisymmetric (r, 0, z)"));
-  coordinates.set("component_names", std::vector<std::string>{"x", "y", "z"});
+void write_coordinates(GroupWriter& arrays, const Rows<double>& values) {
+  const auto coordinates = arrays.add("coordinates", 3, values);
+  coordinates->set("unit", std::string("m"));
+  coordinates->set("meaning", std::string("position (x, y, z); axisymmetric (r, 0, z)"));
+  coordinates->set("component_names", std::vector<std::string>{"x", "y", "z"});
 }
 
 /// What frames.xmf draws of a body without a mesh.
-void write_vertices(const Node& group, const BodyFrame& body) {
+void write_vertices(GroupWriter& arrays) {
   const Rows<std::int64_t> count = [](std::size_t first, std::size_t number, std::int64_t* out) {
     std::iota(out, out + number, static_cast<std::int64_t>(first));
   };
-  const Node topology = write_array(group, body.points, "cells", 1, count);
-  topology.set("meaning", std::string("0, 1, 2, ...: one vertex per point, for frames.xmf"));
+  const auto topology = arrays.add("cells", 1, count);
+  topology->set("meaning", std::string("0, 1, 2, ...: one vertex per point, for frames.xmf"));
 }
 
-void write_mesh(const Node& group, const BodyFrame& body, const FrameMesh& mesh) {
+void write_mesh(const Node& group, GroupWriter& arrays, const BodyFrame& body,
+                const FrameMesh& mesh) {
   require(mesh.corners == 8 || mesh.corners == 4, body, "cells of no known kind");
   require(mesh.connectivity && mesh.coordinates, body, "a mesh without cells or nodes");
-  const Node cells =
-      write_array(group, body.points, "connectivity", mesh.corners, mesh.connectivity);
-  cells.set("unit", std::string("1"));
-  cells.set("meaning", std::string("nodes of each cell: hexahedra bottom counter-clockwise, then "
+  const auto cells = arrays.add("connectivity", mesh.corners, mesh.connectivity);
+  cells->set("unit", std::string("1"));
+  cells->set("meaning", std::string("nodes of each cell: hexahedra bottom counter-clockwise, then "
                                    "the top; quadrilaterals around"));
   const Node nodes = group.make_group("nodes");
-  write_coordinates(nodes, mesh.nodes, mesh.coordinates);
-  for (const auto& field : mesh.fields) write_field(nodes, body, mesh.nodes, field);
+  GroupWriter of_nodes{nodes, mesh.nodes};
+  write_coordinates(of_nodes, mesh.coordinates);
+  for (const auto& field : mesh.fields) write_field(of_nodes, body, field);
 }
 
 void write_body(const Node& file, const BodyFrame& body) {
   require(is_usable_name(body.body), body, "unusable name");
   require(body.ids && body.coordinates, body, "no ids or coordinates");
   const Node group = file.make_group(body.body);
-  const Node ids = write_array(group, body.points, "id", 1, body.ids);
-  ids.set("unit", std::string("1"));
-  ids.set("meaning", std::string("number of the point in its body, for ever"));
-  write_coordinates(group, body.points, body.coordinates);
+  GroupWriter arrays{group, body.points, body.bring};
+  const auto ids = arrays.add("id", 1, body.ids);
+  ids->set("unit", std::string("1"));
+  ids->set("meaning", std::string("number of the point in its body, for ever"));
+  write_coordinates(arrays, body.coordinates);
   if (body.mesh)
-    write_mesh(group, body, *body.mesh);
+    write_mesh(group, arrays, body, *body.mesh);
   else
-    write_vertices(group, body);
-  for (const auto& field : body.fields) write_field(group, body, body.points, field);
+    write_vertices(arrays);
+  for (const auto& field : body.fields) write_field(arrays, body, field);
+  arrays.finish();
 }
 
 void remove_file(const fs::path& path) {

@@ -51,6 +51,13 @@ class Node {
   /// Packed (output/packing.hpp) by all threads, piece by piece. Types: double, int64.
   template <class T>
   Node make_packed(const std::string& name, const Shape& shape, const Rows<T>& rows) const;
+  /// The same in parts: room for the rows, of which `height` are packed together ...
+  template <class T>
+  Node make_packed_space(const std::string& name, const Shape& shape, std::uint64_t& height) const;
+  /// ... and in it the packs that begin from row `first` up to `end`.
+  template <class T>
+  void pack_rows(const Shape& shape, std::uint64_t height, const Rows<T>& rows, std::uint64_t first,
+                 std::uint64_t end) const;
   void link_external(const std::string& name, const std::string& file,
                      const std::string& path) const;
   void set(const std::string& attribute, const std::string& text) const;

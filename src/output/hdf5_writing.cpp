@@ -130,17 +130,32 @@ Node Node::make_packed(const std::string& name, const Shape& shape, const Rows<T
     if (!values.empty()) rows(0, shape[0], values.data());
     return make_dataset(name, shape, values.data());
   }
+  std::uint64_t height = 0;
+  Node dataset = make_packed_space<T>(name, shape, height);
+  dataset.pack_rows(shape, height, rows, 0, shape[0]);
+  return dataset;
+}
+
+template <class T>
+Node Node::make_packed_space(const std::string& name, const Shape& shape,
+                             std::uint64_t& height) const {
   const QuietErrors quiet;
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
-  const std::uint64_t height = set_filters(creation.id(), shape);
-  Node dataset = make_space_for(name, shape, file_type<T>(), creation.id());
+  height = set_filters(creation.id(), shape);
+  return make_space_for(name, shape, file_type<T>(), creation.id());
+}
+
+template <class T>
+void Node::pack_rows(const Shape& shape, std::uint64_t height, const Rows<T>& rows,
+                     std::uint64_t first, std::uint64_t end) const {
+  const QuietErrors quiet;
   const auto threads_at_work = static_cast<std::size_t>(threads());
   std::vector<ChunkMaker<T>> makers(threads_at_work);
   std::vector<typename ChunkMaker<T>::Chunk> chunks(kChunksPerThread * threads_at_work);
-  const std::size_t total = (shape[0] + height - 1) / height;
-  for (std::size_t done = 0; done < total; done += chunks.size()) {
-    const std::size_t now = std::min(chunks.size(), total - done);
+  const std::uint64_t last = (end + height - 1) / height;
+  for (std::uint64_t done = (first + height - 1) / height; done < last; done += chunks.size()) {
+    const std::size_t now = std::min<std::size_t>(chunks.size(), last - done);
     for_each(now, [&](std::size_t i) {
       ChunkMaker<T>& maker = makers[static_cast<std::size_t>(thread_index())];
       chunks[i] = maker.make(rows, shape, (done + i) * height, height);
@@ -148,16 +163,23 @@ Node Node::make_packed(const std::string& name, const Shape& shape, const Rows<T
     for (std::size_t i = 0; i < now; ++i) {
       std::vector<hsize_t> place(shape.size(), 0);
       place[0] = (done + i) * height;
-      require(H5Dwrite_chunk(dataset.handle_.id(), H5P_DEFAULT, chunks[i].mask, place.data(),
+      require(H5Dwrite_chunk(handle_.id(), H5P_DEFAULT, chunks[i].mask, place.data(),
                              chunks[i].bytes.size(), chunks[i].bytes.data()),
-              "dataset '" + name + "'");
+              "a dataset");
     }
   }
-  return dataset;
 }
 
 template Node Node::make_packed(const std::string&, const Shape&, const Rows<double>&) const;
 template Node Node::make_packed(const std::string&, const Shape&, const Rows<std::int64_t>&) const;
+template Node Node::make_packed_space<double>(const std::string&, const Shape&,
+                                              std::uint64_t&) const;
+template Node Node::make_packed_space<std::int64_t>(const std::string&, const Shape&,
+                                                    std::uint64_t&) const;
+template void Node::pack_rows(const Shape&, std::uint64_t, const Rows<double>&, std::uint64_t,
+                              std::uint64_t) const;
+template void Node::pack_rows(const Shape&, std::uint64_t, const Rows<std::int64_t>&,
+                              std::uint64_t, std::uint64_t) const;
 
 void Node::link_external(const std::string& name, const std::string& file,
                          const std::string& path) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/kinematics/mpm/node_loads.hpp"
 #include "krater/kinematics/sph/sph_loads.hpp"
 #include "krater/points/load_fields.hpp"
@@ -75,7 +76,7 @@ bool marks_any(const Simulation& sim, int face) {
 void require_faces(const Simulation& sim) {
   const std::vector<FaceLoad>& faces = sim.scene().loads.faces;
   for (std::size_t k = 0; k < faces.size(); ++k)
-    if (!marks_any(sim, static_cast<int>(k)))
+    if (!(ranks::max(marks_any(sim, static_cast<int>(k)) ? 1 : 0) > 0))
       throw InputError(faces[k].where +
                        ": no point of its body lies there at the start, so the load has nothing to "
                        "act on; where and inside are bounds of the material's place at the start "

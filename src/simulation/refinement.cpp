@@ -132,19 +132,19 @@ BlockSet Refinement::at_start(const std::vector<BlockSet>& blocks) const {
   return out;
 }
 
-BlockSet Refinement::find(const BlockGrid& grid) {
+BlockSet Refinement::find(const BlockGrid& grid, const Distribution* ranks) {
   BlockSet out = regions_;
   for (std::size_t r = 0; r < rules_.size(); ++r) {
     const RefineOptions& rule = rules_[r];
     if (rule.follow >= 0)
       for (const Patch& patch : grid.patches())
-        if (patch.body == rule.follow && !patch.points.empty())
+        if (patch.body == rule.follow && patch.count() > 0)
           mark(coarsest_,
                widened(box_of(grid.geometry(patch.key.level), patch.key), rule.margin,
                        coarsest_.dimension),
                rule.level, out);
     if (rule.field.empty()) continue;
-    look(r, grid);
+    look(r, grid, ranks);
     for (const auto& [key, times] : held_[r])
       for (BlockKey k = key; out.insert(k).second && k.level > 0;)
         k = parent_of(k, coarsest_.dimension);
@@ -160,15 +160,19 @@ double Refinement::largest(const Patch& patch, std::size_t rule) const {
   return most;
 }
 
-void Refinement::look(std::size_t r, const BlockGrid& grid) {
+void Refinement::look(std::size_t r, const BlockGrid& grid, const Distribution* ranks) {
   const RefineOptions& rule = rules_[r];
   Held& held = held_[r];
   for (auto& [key, times] : held) ++times;
   const GridGeometry above = level_of(coarsest_, rule.level - 1);
   const double margin = 0.5 * block_edge(above.dimension) * above.h;  // a block of the finest
-  for (const Patch& patch : grid.patches()) {
+  std::vector<double> most;
+  for (const Patch& patch : grid.patches()) most.push_back(largest(patch, r));
+  if (ranks != nullptr) ranks->share(grid, most);
+  for (std::size_t p = 0; p < most.size(); ++p) {
+    const Patch& patch = grid.patches()[p];
     const bool fine = patch.key.level >= rule.level;
-    if (!(largest(patch, r) > (fine ? kLetGo : 1) * rule.above)) continue;
+    if (!(most[p] > (fine ? kLetGo : 1) * rule.above)) continue;
     const Box box = box_of(grid.geometry(patch.key.level), patch.key);
     for_each_block(above, fine ? box : widened(box, margin, above.dimension),
                    [&held](const BlockKey& key) { held[key] = 0; });

@@ -12,6 +12,7 @@
 #include "krater/kinematics/mpm/columns.hpp"
 #include "krater/simulation/face_loads.hpp"
 #include "krater/simulation/refinement.hpp"
+#include "simulation/slabs.hpp"
 
 namespace krater {
 
@@ -285,6 +286,7 @@ double Simulation::next_step(double until) {
 
 void Simulation::advance(double until) {
   release();
+  surveyed_ = -1;
   const double asked = next_step(until);
   rigid_.set_time(time());
   if (boundary_.set_time(time())) step_->relink();
@@ -329,7 +331,7 @@ void Simulation::advance(double until) {
 
 /// Blocks of cells to the rules of the scene, points to the cells.
 void Simulation::fit_points() {
-  if (refinement_ && refinement_->moves()) step_->regrid(refinement_->find(grid_));
+  if (refinement_ && refinement_->moves()) step_->regrid(refinement_->find(grid_, ranks_.get()));
   if (scene_.method.numerical_fracture == NumericalFracture::split) step_->split_stretched();
   if (scene_.grid.merge) step_->merge();
 }

@@ -6,7 +6,6 @@
 
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
-#include "krater/points/place.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace krater {
@@ -35,6 +34,17 @@ std::size_t Simulation::point_count() const {
   std::size_t n = 0;
   for (int s = 0; s < first_points(); ++s) n += static_cast<std::size_t>(set(s).count());
   for (const Patch& patch : grid_.patches()) n += static_cast<std::size_t>(patch.count());
+  return n;
+}
+
+int Simulation::count_of(int s) const {
+  return s < first_points() ? set(s).count()
+                            : grid_.patches()[static_cast<std::size_t>(s - first_points())].count();
+}
+
+std::size_t Simulation::point_count(int body) const {
+  std::size_t n = 0;
+  for (const int s : sets_of(body)) n += static_cast<std::size_t>(count_of(s));
   return n;
 }
 

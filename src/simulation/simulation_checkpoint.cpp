@@ -96,15 +96,15 @@ void Simulation::save_body(int b, Checkpoint& out) const {
   for (const int s : sets) {
     if (s < first_points()) continue;
     const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
-    if (patch.points.empty()) continue;
+    if (patch.count() == 0) continue;
     keys.insert(keys.end(), patch.key.i.begin(), patch.key.i.end());
     keys.push_back(patch.key.level);
-    keys.push_back(patch.points.count());
+    keys.push_back(patch.count());
   }
   out.blobs.push_back(integers(blob_name(body, "patches"), std::move(keys)));
   out.blobs.push_back({blob_name(body, "columns"), {}, {}, {}, columns_text(body)});
   std::uint64_t points = 0;
-  for (const int s : sets) points += static_cast<std::uint64_t>(set(s).count());
+  for (const int s : sets) points += static_cast<std::uint64_t>(count_of(s));
   const std::vector<int> slots = all_slots(body);
   const std::vector<std::uint64_t> shape{slots.size(), points};
   out.blobs.push_back({blob_name(body, "points"),
@@ -112,13 +112,9 @@ void Simulation::save_body(int b, Checkpoint& out) const {
                        {},
                        {},
                        {},
-                       [this, slots, sets](std::size_t first, std::size_t count, double* to) {
-                         for (std::size_t row = first; row < first + count; ++row)
-                           for (const int s : sets) {
-                             const PointStore& from = *set(s).points;
-                             for (int i = 0; i < from.count(); ++i)
-                               *to++ = from.at(kLanes * slots[row], i);
-                           }
+                       [this, b, slots, points](std::size_t first, std::size_t count, double* to) {
+                         for (std::size_t row = first; row < first + count; ++row, to += points)
+                           copy_column(b, slots[row], to);
                        }});
   if (is_mesh(b)) out.blobs.push_back(numbers(blob_name(body, "mesh"), mesh_->state(mesh_set(b))));
   if (is_sph(b) && !sets.empty())
@@ -191,11 +187,6 @@ Checkpoint Simulation::save() const {
 
 void Simulation::restore_columns(const CheckpointBlob& points, const Body& body,
                                  const std::vector<int>& sets) {
-  const auto count_of = [this](int s) {
-    return s < first_points()
-               ? set(s).count()
-               : grid_.patches()[static_cast<std::size_t>(s - first_points())].count();
-  };
   std::uint64_t count = 0;
   for (const int s : sets) count += static_cast<std::uint64_t>(count_of(s));
   const std::vector<int> slots = all_slots(body);

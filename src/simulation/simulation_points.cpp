@@ -7,7 +7,6 @@
 #include <map>
 
 #include "krater/core/errors.hpp"
-#include "krater/core/ranks.hpp"
 #include "krater/kinematics/mpm/stretch.hpp"
 #include "krater/simulation/point_maker.hpp"
 #include "krater/simulation/refinement.hpp"
@@ -136,10 +135,6 @@ bool Simulation::may_split(const Body& body) const {
   if (scene_.method.numerical_fracture != NumericalFracture::split ||
       !body.options().material_points() || body.options().rigid() || body.is_fluid())
     return false;
-  if (!ranks::alone())
-    throw InputError(
-        "method.numerical_fracture: split cannot be computed on several ranks yet; start krater "
-        "without mpirun: it uses all cores of one machine");
   for (int a = 0; a < geometry_.dimension; ++a)
     if (body.options().points.per_direction[static_cast<std::size_t>(a)] < 2)
       throw InputError(body.options().where +

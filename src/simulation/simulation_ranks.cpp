@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One scene on several ranks (distribute/distribution.hpp). All make the same scene and begin
 // together; then the first leads, and the others do as it says.
-#include <array>
 #include <functional>
 #include <span>
 #include <stdexcept>
@@ -12,24 +11,13 @@
 #include "krater/core/parallel.hpp"
 #include "krater/core/ranks.hpp"
 #include "krater/simulation/simulation.hpp"
+#include "simulation/orders.hpp"
+#include "simulation/slabs.hpp"
 
 namespace krater {
 
 namespace {
 
-/// What the first rank tells the others to do.
-enum class Order { leave, step, survey, assemble, restore };
-
-struct Told {
-  Order order;
-  double until;
-};
-
-Told tell(Order order, double until = 0) {
-  std::array<double, 2> words{static_cast<double>(order), until};
-  ranks::broadcast(words);
-  return {static_cast<Order>(static_cast<int>(words[0])), words[1]};
-}
 
 /// All ranks are at it: an error that the others cannot know of would let them wait for ever.
 template <class Work>
@@ -47,17 +35,10 @@ void together(const Work& work) {
 
 /// What of a scene is not computed on several ranks yet; empty: all of it is.
 std::string undistributed(const Scene& scene, const std::vector<std::unique_ptr<Body>>& bodies) {
-  if (!scene.grid.refine.empty()) return scene.grid.refine.front().where + ": finer cells";
-  const MethodOptions& method = scene.method;
-  for (const auto& body : bodies) {
-    const std::string name = "body '" + body->name() + "': ";
-    if (!body->options().material_points()) return name + "elements and particles";
-    if (body->pressure_on_grid(scene)) return name + "pressure integrated on the grid";
-  }
-  if (scene.loads.any()) return "loads: loads on faces, driven faces and damping";
-  if (method.reference == Reference::adaptive)
-    return "method.reference: a reference configuration that is renewed";
-  if (method.reference == Reference::initial && scene.contact.active)
+  for (const auto& body : bodies)
+    if (!body->options().material_points())
+      return "body '" + body->name() + "': elements and particles";
+  if (scene.method.reference != Reference::current && scene.contact.active)
     return "method.reference: contact on a fixed reference";
   if (scene.contact.active && scene.contact.normal == ContactNormal::logistic_regression)
     return "contact.normal: logistic_regression";
@@ -72,7 +53,9 @@ int reach(const Scene& scene) {
     closed += sides[0].closed() || sides[1].closed() ? 1 : 0;
     pushing += sides[0].pushes() || sides[1].pushes() ? 1 : 0;
   }
-  return 1 + (closed > 0 ? 1 : 0) + (pushing > 1 ? 1 : 0) + (scene.contact.active ? 1 : 0);
+  const int levels = scene.grid.refine.empty() ? 0 : 1;
+  return 1 + levels + (closed > 0 ? 1 : 0) + (pushing > 1 ? 1 : 0) +
+         (scene.contact.active ? 1 : 0);
 }
 
 }  // namespace
@@ -101,13 +84,20 @@ void Simulation::follow(const std::function<Checkpoint()>& checkpoint) {
       together([&] {
         switch (told.order) {
           case Order::step:
-            return advance(told.until);
+            return advance(told.a);
           case Order::survey:
             return survey_together();
           case Order::assemble:
             return assemble_together();
           case Order::restore:
             return restore_together(checkpoint);
+          case Order::column:
+            return column_together(static_cast<int>(told.a), static_cast<int>(told.b), nullptr);
+          case Order::open_slabs:
+            return open_slabs_together(static_cast<int>(told.a));
+          case Order::slab:
+            return slab_together(static_cast<std::size_t>(told.a),
+                                 static_cast<std::size_t>(told.b));
           case Order::leave:
             break;
         }

@@ -10,7 +10,10 @@ import shutil
 import subprocess
 import sys
 
-from scene_support import KRATER, ROOT, Folder, check, differences, environment, finish, run, settings, summary
+import numpy as np
+
+from scene_support import (KRATER, ROOT, Folder, check, datasets, differences, environment, finish, run, same_bits,
+                           settings, summary)
 
 PROGRAM = pathlib.Path(KRATER).with_name("krater_on_ranks")
 if not PROGRAM.exists():
@@ -18,29 +21,40 @@ if not PROGRAM.exists():
 INPUTS = ROOT / "inputs"
 LAUNCHER = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np"]
 AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+# Scene, what is set, and on how many ranks: cuts of four go through the middle, where bodies meet; scattered blocks change
+# hands every few steps.
+CUT, SCATTERED = (4, ""), (2, "scattered")
 CASES = {
     # a wall with friction, symmetry at the axis, blocks that sleep
-    "taylor": ("taylor_copper.yaml", ["time.end=8 us", "output.frames=2 us", "grid.cell=0.3 mm"]),
+    "taylor": ("taylor_copper.yaml", ["time.end=8 us", "output.frames=2 us", "grid.cell=0.3 mm"], [CUT, SCATTERED]),
     # contact, damage, failed points that go, open sides
-    "plugging": ("ccf_plugging.yaml", ["grid.cell=1 mm", "time.end=40 us", "output.frames=20 us"]),
+    "plugging": ("ccf_plugging.yaml", ["grid.cell=1 mm", "time.end=40 us", "output.frames=20 us"], [CUT, SCATTERED]),
     # planes of symmetry along two axes, contact in space
-    "bars": ("ccf_two_bars.yaml", ["grid.cell=1.25 mm", "time.end=6 us", "output.frames=3 us"]),
-    # debris
-    "bumper": ("hiermaier_al.yaml", ["grid.cell=1 mm", "time.end=3 us", "output.frames=1 us"]),
-    # points that leave the box
-    "leaves": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.3 mm",
-                                      "bodies.rod.velocity=[0, 400 m/s]", "grid.box.max=[12 mm, 26 mm]"]),
-    # impulses of contact, a body force, another update
-    "measured": ("ccf_plugging.yaml", ["grid.cell=1.5 mm", "time.end=20 us", "output.frames=10 us",
-                                       "method.update=musl", "body_force=[0, 1e6]",
-                                       "measures.given={kind: impulse, body: projectile, axis: z, by: plate}"]),
-    # a free rigid body that strikes, loses points at an open side, and feels a body force
+    "bars": ("ccf_two_bars.yaml", ["grid.cell=1.25 mm", "time.end=6 us", "output.frames=3 us"], [CUT]),
+    # points that leave the box; no measures, so that no rank ever has all points
+    "leaves": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.3 mm", "measures={}",
+                                      "bodies.rod.velocity=[0, 400 m/s]", "grid.box.max=[12 mm, 26 mm]"], [SCATTERED]),
+    # a free rigid body that feels a body force, impulses of contact, another update
     "rigid": ("ccf_plugging.yaml", ["grid.cell=1.5 mm", "time.end=30 us", "output.frames=15 us", "contact.friction=0.2",
-                                    "bodies.projectile.rigid=free", "body_force=[0, 1e6]"]),
-    # a filtered transfer; a reference configuration that stays
-    "xpic": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.5 mm", "method.transfer=xpic"]),
-    "initial": ("taylor_copper.yaml", ["time.end=6 us", "output.frames=3 us", "grid.cell=0.5 mm",
-                                       "method.reference=initial"]),
+                                    "bodies.projectile.rigid=free", "body_force=[0, 1e6]", "method.update=musl",
+                                    "measures.given={kind: impulse, body: projectile, axis: z, by: plate}"], [SCATTERED]),
+    # finer cells that follow debris and strain; points that split and merge
+    "levels": ("hiermaier_al.yaml", ["grid.cell=1 mm", "time.end=3 us", "output.frames=1 us", "grid.merge=true",
+                                     "grid.refine=[{follow: sphere, margin: 2 mm, level: 1}, "
+                                     "{where: {field: plastic_strain, above: 0.3}, level: 2}]"], [CUT, SCATTERED]),
+    # the same along a path, with a rigid body and a gauge
+    "penetration": ("snl/penetration.yaml", ["grid.cell=76.2 mm", "time.end=0.4 ms", "output.frames=0.2 ms"], [SCATTERED]),
+    # finer cells of two bodies in contact, in space
+    "levels_space": ("ccf_two_bars.yaml", ["grid.cell=1.25 mm", "time.end=4 us", "output.frames=2 us",
+                                           "grid.refine=[{where: {field: plastic_strain, above: 0.2}, level: 1}]"],
+                     [SCATTERED]),
+    # a filtered transfer; a reference configuration that is renewed; loads on faces; pressure on the grid
+    "xpic": ("taylor_copper.yaml", ["time.end=4 us", "output.frames=2 us", "grid.cell=0.5 mm", "method.transfer=xpic"],
+             [SCATTERED]),
+    "adaptive": ("taylor_copper.yaml", ["time.end=8 us", "output.frames=4 us", "grid.cell=0.5 mm",
+                                        "method.reference=adaptive"], [SCATTERED]),
+    "loaded": ("copper_spall.yaml", ["grid.cell=0.05 mm", "time.end=0.6 us", "output.frames=0.3 us"], [SCATTERED]),
+    "fluid": ("plate_impact.yaml", ["time.end=0.3 us", "output.frames=0.1 us"], [SCATTERED]),
 }
 
 
@@ -57,15 +71,17 @@ def last_line(done):
 
 def same(one, other, what):
     found = differences(one, other)
-    check(not found, f"{what}: frames, history, summary identical", ", ".join(found[:6]))
+    a, b = (datasets(f"{name}/checkpoint.h5") for name in (one, other))
+    found += [f"checkpoint: {name}" for name in sorted(a.keys() | b.keys())
+              if name not in a or name not in b or not same_bits(np.asarray(a[name]), np.asarray(b[name]))]
+    check(not found, f"{what}: frames, history, summary, checkpoint identical", ", ".join(found[:6]))
 
 
 def bits():
-    for name, (scene, values) in CASES.items():
+    for name, (scene, values, deals) in CASES.items():
         done = run(f"{name}_alone", *values, scene=INPUTS / scene)
         check(done.returncode == 0, f"{name} alone", last_line(done))
-        # cuts of two and four go through the middle, where bodies meet; scattered blocks change hands every few steps
-        for count, deal in ((4, ""), (2, "scattered")):
+        for count, deal in deals:
             output = f"{name}_{count}{deal}"
             done = on_ranks(count, scene, output, *values, env={"KRATER_DEAL": deal})
             check(done.returncode == 0, f"{name} on {count} ranks {deal}", done.stderr[-300:] if done.returncode else "")
@@ -75,7 +91,7 @@ def bits():
 
 
 def restarts():
-    scene, values = CASES["taylor"]
+    scene, values, _ = CASES["taylor"]
     done = on_ranks(3, scene, "first", *values, "time.end=4 us")
     check(done.returncode == 0, "a shorter run on three ranks", last_line(done))
     for count in (1, 2):
@@ -89,8 +105,8 @@ def restarts():
 
 
 def errors():
-    scene, values = CASES["taylor"]
-    done = on_ranks(2, scene, "refused", *values, "method.transfer=xpic")
+    scene, values, _ = CASES["taylor"]
+    done = on_ranks(2, "taylor_copper_sph.yaml", "refused")
     check(done.returncode == 2 and "several ranks" in done.stderr, "what cannot be distributed is refused by name",
           done.stderr[:200])
     done = subprocess.run([*LAUNCHER, "2", str(PROGRAM), "check", str(INPUTS / scene)], capture_output=True, text=True,

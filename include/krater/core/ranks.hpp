@@ -43,13 +43,21 @@ inline bool first() { return index() == 0; }
 /// Sums over the ranks, in bits those of one rank that adds all terms.
 void sum(std::span<ReproducibleSum> sums);
 double max(double x);
+/// Both at once: sums, and greatest of numbers.
+void reduce(std::span<ReproducibleSum> sums, std::span<double> greatest);
 /// What each rank has, by rank.
 std::vector<std::vector<std::byte>> all_gather(std::span<const std::byte> own);
+/// The same, one behind the other, where all know how many bytes that is of each rank.
+std::vector<std::byte> all_gather(std::span<const std::byte> own, const std::vector<int>& sizes);
 /// Of the first rank, to all.
 void broadcast(std::span<double> data);
 /// Send messages, and receive one from each rank of `from`, in its order. Every rank knows whom it
 /// will hear from.
 std::vector<Message> exchange(const std::vector<Message>& out, const std::vector<int>& from);
+/// The same in two parts, with work in between; the messages must stay as they are until then. `in`
+/// names the ranks, and keeps its memory.
+void send(const std::vector<Message>& out);
+void receive(std::vector<Message>& in);
 
 /// Bytes and messages that this rank has sent, and seconds in these functions, since the start.
 struct Traffic {

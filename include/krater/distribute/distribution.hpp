@@ -6,16 +6,14 @@
 /// Every rank knows of all patches: key, body, owner, how many points, and what their last sweep
 /// found (PatchResult); so what is summed or decided over patches is so on every rank as on one.
 /// The points of a patch are on its owner alone. A rank also holds, without points, the patches up
-/// to `width` blocks around its own: their tiles come from their owners once a step, and the nodes
+/// to `width` blocks around its own (grid/neighbourhood.hpp): their tiles come from their owners once a step, and the nodes
 /// around its own points are summed, moved, brought into contact and held by walls here, from all
 /// tiles that reach them in the order of their blocks, as one rank does it. Nothing is sent back.
-/// (The plan of the issue had the owner of a node sum it and send v+ and dv: a second message in
-/// every step, and a third for what contact and walls read around a node. The nodes done twice are
-/// a surface.)
 ///
 /// How far that reaches: a point reads the nodes of its block and the one above it, [0, 1]; these
 /// are whole with the tiles of [-1, 1]. Each of the following reads nodes up to a block further on
-/// to make those right: planes that fold or push, contact, and planes that push along two axes.
+/// to make those right: planes that fold or push, contact, planes that push along two axes, and
+/// levels of cells.
 ///
 /// A sum over nodes counts a block where the first patch that reaches it is (NodeBlock::counted),
 /// and does not depend on the order of its terms (core/reproducible_sum.hpp).
@@ -27,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "krater/core/ranks.hpp"
 #include "krater/distribute/partition.hpp"
 #include "krater/grid/blocks.hpp"
 #include "krater/kinematics/audit.hpp"
@@ -48,8 +47,33 @@ class Distribution {
   bool rebalance(BlockGrid& grid);
   /// Who needs whose tiles; after BlockGrid::rebuild().
   void relink(const BlockGrid& grid);
-  /// Tiles of patches near those of other ranks; when all are scattered.
-  void exchange_tiles(BlockGrid& grid);
+  int owner(const BlockKey& key) const { return partition_.owner(key); }
+  /// Of patches near those of other ranks: what write(p, numbers) adds, to these ranks, where
+  /// read(p, at) takes it and moves on; p: number of the patch. Collective.
+  template <class Write, class Read>
+  void exchange_near(const Write& write, const Read& read) const {
+    std::vector<ranks::Message> out;
+    std::vector<int> from;
+    for (const Neighbour& n : neighbours_) {
+      out.push_back({n.rank, {}});
+      from.push_back(n.rank);
+      for (const int p : n.send) write(static_cast<std::size_t>(p), out.back().data);
+    }
+    const std::vector<ranks::Message> in = ranks::exchange(out, from);
+    for (std::size_t m = 0; m < in.size(); ++m) {
+      const double* at = in[m].data.data();
+      for (const int p : neighbours_[m].receive)
+        read(static_cast<std::size_t>(p), at);
+    }
+  }
+  /// To whatever ranks: a message for each rank, empty or not; what comes, by rank.
+  static std::vector<ranks::Message> exchange_any(std::vector<std::vector<double>> by_rank);
+  /// Tiles of patches near those of other ranks: when all that goes out is scattered, and before
+  /// those are read that come.
+  void send_tiles(BlockGrid& grid);
+  void receive_tiles(BlockGrid& grid);
+  /// The tile of a patch is one of these.
+  bool goes_out(std::size_t patch) const { return goes_out_[patch] != 0; }
   /// What the sweep found of each patch, and what it took out of the computation, to all.
   void share_results(BlockGrid& grid, std::vector<Removed>& removed) const;
   /// Of patches, by number: what the owner found, to all.
@@ -83,6 +107,8 @@ class Distribution {
   std::vector<PointColumns> columns_;
   Partition partition_;
   std::vector<Neighbour> neighbours_;  ///< by rank
+  std::vector<ranks::Message> sent_, received_;  ///< tiles, by neighbour; their memory stays
+  std::vector<char> goes_out_;                   ///< by patch
   /// Patches of this rank whose tile a rank has had since it needs it: (rank, body, key).
   std::set<std::pair<std::pair<int, int>, BlockKey>> known_;
   int steps_since_cut_ = 0, cuts_ = 0;

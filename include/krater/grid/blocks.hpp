@@ -43,7 +43,8 @@ constexpr FieldId own_field(int body) { return static_cast<FieldId>(body); }
 struct Outbox {
   std::vector<double> records;
   std::vector<std::uint8_t> slots;  ///< neighbour 0..26, lexicographic in (-1, 0, 1) per axis
-  std::uint32_t used = 0;           ///< bit per slot
+  std::uint32_t used = 0;           ///< bit per slot, and this one:
+  static constexpr std::uint32_t kOtherLevel = 1U << 31U;
   std::vector<double> other_level;  ///< whole records of points for blocks of another level ...
   std::vector<BlockKey> keys;       ///< ... and these blocks
   void clear() {
@@ -145,8 +146,10 @@ struct NodeBlock {
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   std::uint64_t tied = 0;         ///< nodes that follow from those of the level above, a bit each
   bool at_tie = false;            ///< holds such nodes, some that they follow from, or next to them
+  bool completed = false;  ///< contact adds the volumes of finer nodes: never passed over
   bool at_boundary = false;
   bool at_wall = false;  ///< holds columns of a unilateral wall
+  bool whole = true;     ///< all its tiles are of this rank
   bool counted = true;   ///< in the sums of this rank: it has the first patch that reaches it
   bool still = false;    ///< every v+ and dv of the block is exactly zero
   bool inert =
@@ -191,7 +194,7 @@ class BlockGrid {
   /// Velocity field of each body; bodies beyond the list are in field 0. Before rebuild().
   void set_fields(std::vector<FieldId> field_of_body) { field_of_body_ = std::move(field_of_body); }
   /// Which rank has the patches of a block; this one is `own` and holds the nodes and tiles of what
-  /// is up to `width` blocks around its patches. Before patches are made.
+  /// is near its patches (grid/neighbourhood.hpp). Before patches are made.
   void set_owners(std::function<int(const BlockKey&)> owner, int own, int width) {
     owner_ = std::move(owner);
     own_ = own;
@@ -209,6 +212,7 @@ class BlockGrid {
 
  private:
   void find_near();
+  void count_masters();
   void make_node_blocks();
   template <class Add>
   void add_shadows(const Add& add);
@@ -234,8 +238,6 @@ constexpr int slot_offset(int slot, int axis, int dimension) {
 }
 constexpr int corner_offset(int corner, int axis) { return (corner >> axis) & 1; }
 BlockKey shifted(const BlockKey& key, int slot, int dimension);
-/// All keys up to `width` blocks from some of these along every axis, sorted.
-std::vector<BlockKey> keys_within(std::vector<BlockKey> keys, int width, int dimension);
 /// One of the blocks that hold what the tied nodes of block `key` follow from: 2^dim where its
 /// indices are odd, fewer where some are even. None: of that corner there is none.
 std::optional<BlockKey> master_block(const BlockKey& key, int corner, int dimension);

@@ -28,6 +28,22 @@ struct Removed {
   double side_work = 0;     ///< of the sides in putting back [J]
   /// And their impulse, by side: 2 axis + (0 lower, 1 upper) [N s].
   std::array<std::array<double, 3>, 6> side_impulse{};
+
+  Removed& operator+=(const Removed& o) {
+    count += o.count;
+    mass += o.mass;
+    kinetic += o.kinetic;
+    internal += o.internal;
+    failed += o.failed;
+    reflections += o.reflections;
+    penetrations += o.penetrations;
+    deepest = std::max(deepest, o.deepest);
+    side_work += o.side_work;
+    for (std::size_t a = 0; a < 3; ++a) momentum[a] += o.momentum[a];
+    for (std::size_t s = 0; s < side_impulse.size(); ++s)
+      for (std::size_t a = 0; a < 3; ++a) side_impulse[s][a] += o.side_impulse[s][a];
+    return *this;
+  }
 };
 
 struct Audit {

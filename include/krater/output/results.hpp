@@ -57,6 +57,9 @@ struct BodyFrame {
       coordinates;  ///< 3 per point (x, y, z); axisymmetric (r, 0, z), plane strain (x, 0, z)
   std::vector<FieldArray> fields;
   std::optional<FrameMesh> mesh{};
+  /// Where not all points are at hand: makes `count` rows of all arrays ready, from the row `first`
+  /// on. Called before these are read, again and again, with more of them each time.
+  std::function<void(std::size_t first, std::size_t count)> bring{};
 };
 
 struct OutputFrame {

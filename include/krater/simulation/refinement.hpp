@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "krater/distribute/distribution.hpp"
 #include "krater/geometry/solids/box.hpp"
 #include "krater/grid/blocks.hpp"
 #include "krater/scene/scene.hpp"
@@ -39,7 +40,7 @@ class Refinement {
   /// Before there are points: `blocks` of the coarsest level hold those of each body.
   BlockSet at_start(const std::vector<BlockSet>& blocks) const;
   /// Now.
-  BlockSet find(const BlockGrid& grid);
+  BlockSet find(const BlockGrid& grid, const Distribution* ranks);
 
   /// What the rules remember, for a checkpoint.
   std::vector<std::int64_t> state() const;
@@ -48,7 +49,7 @@ class Refinement {
  private:
   /// Blocks that a rule of a field has refined last, and how many times it did not ask for them.
   using Held = std::map<BlockKey, int>;
-  void look(std::size_t rule, const BlockGrid& grid);
+  void look(std::size_t rule, const BlockGrid& grid, const Distribution* ranks);
   double largest(const Patch& patch, std::size_t rule) const;
 
   const std::vector<RefineOptions>& rules_;

@@ -16,6 +16,7 @@
 #include "krater/kinematics/mpm/mpm_step.hpp"
 #include "krater/kinematics/sph/sph_step.hpp"
 #include "krater/output/results.hpp"
+#include "krater/points/place.hpp"
 #include "krater/simulation/body.hpp"
 #include "krater/simulation/detonation.hpp"
 #include "krater/simulation/refinement.hpp"
@@ -32,6 +33,12 @@ struct Totals {
       0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
 
   Totals& operator+=(const Totals& other);
+};
+
+/// Points side by side, each with the level of the cells about it.
+struct BroughtPoints {
+  std::vector<PointPlace> places;
+  std::vector<int> levels;
 };
 
 /// Sums over the points of one set.
@@ -73,6 +80,11 @@ class Simulation {
   void follow(const std::function<Checkpoint()>& checkpoint);
   /// All points come to the first rank, to be read there until the next step.
   void assemble();
+  /// They are there: one rank has all, or they were assembled.
+  bool has_all_points() const { return !ranks_ || assembled_; }
+  /// Points of a body in the order of their ids, from the row `first` on, from whatever rank. Until
+  /// the next call.
+  BroughtPoints bring(int body, std::size_t first, std::size_t count) const;
   const Distribution* distribution() const { return ranks_.get(); }  ///< null: one rank
   bool broken() const { return broken_; }  ///< a step failed half-way: the state is for a look only
   double stable_step() const { return clock_.stable_step(limit_.rate); }  ///< of the next step [s]
@@ -84,6 +96,7 @@ class Simulation {
 
   IsaLevel isa_level() const { return level_; }
   std::size_t point_count() const;
+  std::size_t point_count(int body) const;
   std::size_t block_count() const { return grid_.patches().size(); }
   double bytes_per_point() const;
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
@@ -187,6 +200,12 @@ class Simulation {
   std::unique_ptr<NodeLoads> make_loads();
   Totals totals_of_set(int s) const;
   double deviatoric_energy_of_set(int s) const;
+  int count_of(int s) const;  ///< points of a set, on whatever rank
+  void copy_column(int body, int slot, double* to) const;
+  void column_together(int body, int slot, double* to) const;
+  void open_slabs_together(int body) const;
+  std::vector<double> records_of_slab(std::size_t first, std::size_t end) const;
+  void slab_together(std::size_t first, std::size_t end) const;
   std::vector<SetSums> set_sums(bool deviatoric) const;
   void survey_together() const;
   void save_levels(Checkpoint& out) const;
@@ -236,6 +255,8 @@ class Simulation {
   Impulses impulses_;
   std::unique_ptr<NodeLoads> loads_;
   std::unique_ptr<Distribution> ranks_;  ///< null: one rank has all
+  struct Slabs;  ///< points of one body by their ids, where ranks write together
+  mutable std::unique_ptr<Slabs> slabs_;
   mutable std::vector<SetSums> survey_;  ///< where points are elsewhere ...
   mutable std::int64_t surveyed_ = -1;   ///< ... and of which step
   bool together_ = false;                ///< the ranks have begun

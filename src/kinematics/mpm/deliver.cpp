@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/kinematics/mpm/interior.hpp"
 #include "krater/kinematics/mpm/migrate.hpp"
 
@@ -17,8 +18,7 @@ using Places = std::set<std::pair<BlockKey, int>>;  ///< block, body
 
 /// Nothing in it, nothing on the way from it or to it.
 bool is_idle(const Patch& patch) {
-  return patch.count() == 0 && patch.outbox.used == 0 && patch.outbox.keys.empty() &&
-         !patch.awaited;
+  return patch.count() == 0 && patch.outbox.used == 0 && !patch.awaited;
 }
 
 /// Blocks that points of one patch would be in after `ahead`, as they move now.
@@ -64,7 +64,7 @@ void look_ahead(BlockGrid& grid, const std::vector<BodyKernelData>& bodies, doub
 }
 
 /// Of the patches that are there: to which points come now.
-void await(BlockGrid& grid, const std::vector<Arrival>& arrivals) {
+void await(BlockGrid& grid, const Places& arriving) {
   for (Patch& patch : grid.patches()) patch.awaited = false;
   const int slots = neighbour_count(grid.geometry().dimension);
   for (const Patch& patch : grid.patches())
@@ -72,15 +72,15 @@ void await(BlockGrid& grid, const std::vector<Arrival>& arrivals) {
       if (const int to = patch.links.neighbours[static_cast<unsigned>(s)];
           ((patch.outbox.used >> s) & 1U) != 0 && to >= 0)
         grid.patches()[static_cast<std::size_t>(to)].awaited = true;
-  for (const Arrival& a : arrivals)
-    if (const int to = grid.find_patch(a.key, a.body); to >= 0)
+  for (const auto& [key, body] : arriving)
+    if (const int to = grid.find_patch(key, body); to >= 0)
       grid.patches()[static_cast<std::size_t>(to)].awaited = true;
 }
 
 void make_patches(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                  const std::vector<Arrival>& arrivals, double ahead, const Distribution* ranks,
+                  const Places& arriving, double ahead, const Distribution* ranks,
                   Places missing) {
-  await(grid, arrivals);
+  await(grid, arriving);
   if (ahead > 0) look_ahead(grid, bodies, ahead, ranks, missing);
   grid.drop_patches_if(is_idle);
   for (const auto& [key, body] : missing)
@@ -98,40 +98,121 @@ bool drop_idle(BlockGrid& grid) {
   return true;
 }
 
-/// Points that changed their level, whole or in parts, and halves of long ones, in the order of
-/// their patches.
+/// Numbers of points that splitting makes, until all know how many these are.
+constexpr double kProvisional = 0x1p52;
+
+/// What came of the points of one patch that changed their level.
+struct Changed {
+  double heat = 0, unfelt = 0, made = 0, finer_rate = 0;
+};
+
+/// The points of a patch that changed their level, whole or in parts, and halves of long ones.
+Changed change_level(const BlockGrid& grid, std::size_t p, const std::vector<BodyKernelData>& bodies,
+                     const PointSize& of_body, Interior& interior, std::vector<Arrival>& arrivals) {
+  const Patch& patch = grid.patches()[p];
+  const Outbox& box = patch.outbox;
+  const BodyKernelData& body = bodies[static_cast<std::size_t>(patch.body)];
+  const PointColumns& columns = body.columns;
+  const auto width = static_cast<std::ptrdiff_t>(columns.stride / kLanes);
+  PointSize size = of_body;
+  size.next_id = kProvisional;
+  Changed out;
+  for (std::size_t k = 0; k < box.keys.size(); ++k) {
+    const auto from = box.other_level.begin() + static_cast<std::ptrdiff_t>(k) * width;
+    Arrival whole{box.keys[k], patch.body, {from, from + width}, false, static_cast<int>(p)};
+    if (size.stagger && will_split(grid.levels(), columns, size, patch.key.level, whole))
+      whole.inside = interior.holds(whole.record.data() + columns.position / kLanes,
+                                    patch.key.level, patch.body);
+    const double heat =
+        arrive(grid.levels(), columns, size, patch.key.level, std::move(whole), arrivals);
+    out.heat += heat;
+    if (body.heat_floor == nullptr) out.unfelt += heat;
+    const int finer = box.keys[k].level - patch.key.level;
+    out.finer_rate = std::max(out.finer_rate, std::ldexp(patch.result.max_rate, finer));
+  }
+  out.made = size.next_id - kProvisional;
+  return out;
+}
+
+/// Points of this rank that changed their level, in the order of their patches.
 std::vector<Arrival> find_arrivals(BlockGrid& grid, const BoundarySet& boundary,
                                    const std::vector<BodyKernelData>& bodies,
-                                   std::vector<PointSize>& sizes, Delivered& out) {
+                                   std::vector<PointSize>& sizes, const Distribution* ranks,
+                                   Delivered& out) {
   std::vector<Arrival> arrivals;
   Interior interior{grid, boundary.conditions(), bodies, sizes};
-  for (Patch& patch : grid.patches()) {
-    Outbox& box = patch.outbox;
-    const PointColumns& columns = bodies[static_cast<std::size_t>(patch.body)].columns;
-    const auto width = static_cast<std::ptrdiff_t>(columns.stride / kLanes);
-    PointSize& size = sizes[static_cast<std::size_t>(patch.body)];
-    for (std::size_t k = 0; k < box.keys.size(); ++k) {
-      const auto from = box.other_level.begin() + static_cast<std::ptrdiff_t>(k) * width;
-      const std::size_t before = arrivals.size();
-      Arrival whole{box.keys[k], patch.body, {from, from + width}};
-      if (size.stagger && will_split(grid.levels(), columns, size, patch.key.level, whole))
-        whole.inside = interior.holds(whole.record.data() + columns.position / kLanes,
-                                      patch.key.level, patch.body);
-      const double heat =
-          arrive(grid.levels(), columns, size, patch.key.level, std::move(whole), arrivals);
-      out.heat += heat;
-      if (bodies[static_cast<std::size_t>(patch.body)].heat_floor == nullptr) out.unfelt += heat;
-      out.made += static_cast<double>(arrivals.size() - before - 1);
-      const int finer = box.keys[k].level - patch.key.level;
-      out.finer_rate = std::max(out.finer_rate, std::ldexp(patch.result.max_rate, finer));
-    }
+  if (ranks != nullptr) interior.exchange(*ranks);
+  std::vector<Changed> changed(grid.patches().size());
+  for (std::size_t p = 0; p < changed.size(); ++p)
+    changed[p] = change_level(grid, p, bodies,
+                              sizes[static_cast<std::size_t>(grid.patches()[p].body)], interior,
+                              arrivals);
+  if (ranks != nullptr) ranks->share(grid, changed);
+  std::vector<double> first(changed.size());  // number of the first point that a patch makes
+  for (std::size_t p = 0; p < changed.size(); ++p) {
+    PointSize& size = sizes[static_cast<std::size_t>(grid.patches()[p].body)];
+    first[p] = size.next_id;
+    size.next_id += changed[p].made;
+    out.heat += changed[p].heat;
+    out.unfelt += changed[p].unfelt;
+    out.made += changed[p].made;
+    out.finer_rate = std::max(out.finer_rate, changed[p].finer_rate);
+    grid.patches()[p].outbox.keys.clear();
+    grid.patches()[p].outbox.other_level.clear();
+    grid.patches()[p].outbox.used &= ~Outbox::kOtherLevel;
   }
-  for (Patch& patch : grid.patches()) {
-    patch.outbox.keys.clear();
-    patch.outbox.other_level.clear();
-  }
+  for (Arrival& a : arrivals)
+    if (double& id = a.record.front(); id >= kProvisional)
+      id += first[static_cast<std::size_t>(a.source)] - kProvisional;
   return arrivals;
 }
+
+/// Where arrivals of all ranks go.
+Places places_of(const BlockGrid& grid, const std::vector<Arrival>& arrivals,
+                 const Distribution* ranks) {
+  std::vector<std::vector<BlockKey>> to(grid.patches().size());
+  for (const Arrival& a : arrivals) to[static_cast<std::size_t>(a.source)].push_back(a.key);
+  if (ranks != nullptr) ranks->share_keys(grid, to);
+  Places out;
+  for (std::size_t p = 0; p < to.size(); ++p)
+    for (const BlockKey& key : to[p]) out.insert({key, grid.patches()[p].body});
+  return out;
+}
+
+}  // namespace
+
+void route(std::vector<Arrival>& arrivals, const Distribution& ranks) {
+  std::vector<std::vector<double>> by_rank(static_cast<std::size_t>(ranks::count()));
+  std::vector<Arrival> here;
+  for (Arrival& a : arrivals) {
+    const int to = ranks.owner(a.key);
+    if (to == ranks::index()) {
+      here.push_back(std::move(a));
+      continue;
+    }
+    std::vector<double>& data = by_rank[static_cast<std::size_t>(to)];
+    data.insert(data.end(), {1.0 * a.source, 1.0 * a.body, 1.0 * a.key.i[0], 1.0 * a.key.i[1],
+                             1.0 * a.key.i[2], 1.0 * a.key.level, 1.0 * a.record.size()});
+    data.insert(data.end(), a.record.begin(), a.record.end());
+  }
+  for (const ranks::Message& message : Distribution::exchange_any(std::move(by_rank)))
+    for (auto at = message.data.begin(); at != message.data.end();) {
+      Arrival& a = here.emplace_back();
+      a.source = static_cast<int>(*at++);
+      a.body = static_cast<int>(*at++);
+      for (std::int32_t& i : a.key.i) i = static_cast<std::int32_t>(*at++);
+      a.key.level = static_cast<std::int32_t>(*at++);
+      const auto width = static_cast<std::ptrdiff_t>(*at++);
+      const auto end = at + width;
+      a.record.assign(at, end);
+      at = end;
+    }
+  std::stable_sort(here.begin(), here.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.source < b.source; });
+  arrivals = std::move(here);
+}
+
+namespace {
 
 void take_arrivals(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
                    const std::vector<Arrival>& arrivals) {
@@ -175,21 +256,25 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
                   double ahead, Distribution* ranks) {
   const int dimension = grid.geometry().dimension, slots = neighbour_count(dimension);
   Delivered out;
-  const bool any = std::any_of(grid.patches().begin(), grid.patches().end(),
-                               [](const Patch& p) { return !p.outbox.keys.empty(); });
   std::vector<Arrival> arrivals;
-  if (any) arrivals = find_arrivals(grid, boundary, bodies, sizes, out);
-  Places missing;
+  Places arriving, missing;
+  if (std::any_of(grid.patches().begin(), grid.patches().end(), [](const Patch& p) {
+        return (p.outbox.used & Outbox::kOtherLevel) != 0;
+      })) {
+    arrivals = find_arrivals(grid, boundary, bodies, sizes, ranks, out);
+    arriving = places_of(grid, arrivals, ranks);
+    if (ranks != nullptr) route(arrivals, *ranks);
+  }
   for (const Patch& patch : grid.patches())
     for (int s = 0; s < slots; ++s)
       if (((patch.outbox.used >> s) & 1U) != 0 &&
           patch.links.neighbours[static_cast<unsigned>(s)] < 0)
         missing.insert({shifted(patch.key, s, dimension), patch.body});
-  for (const Arrival& a : arrivals)
-    if (grid.find_patch(a.key, a.body) < 0) missing.insert({a.key, a.body});
-  if (!missing.empty()) make_patches(grid, bodies, arrivals, ahead, ranks, missing);
+  for (const auto& place : arriving)
+    if (grid.find_patch(place.first, place.second) < 0) missing.insert(place);
+  if (!missing.empty()) make_patches(grid, bodies, arriving, ahead, ranks, missing);
   const auto& all = grid.patches();
-  if (arrivals.empty() && std::all_of(all.begin(), all.end(), [](const Patch& p) {
+  if (arriving.empty() && std::all_of(all.begin(), all.end(), [](const Patch& p) {
         return p.steady && p.outbox.used == 0;
       })) {
     out.changed = drop_idle(grid) || !missing.empty();

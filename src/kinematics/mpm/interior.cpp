@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "krater/kinematics/mpm/interior.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace krater {
@@ -82,39 +83,81 @@ const Interior::Masses& Interior::masses(const BlockKey& key, int body) {
   if (!counted_) add_travellers();
   const auto [at, is_new] = masses_.try_emplace({key, body});
   if (!is_new) return at->second;
+  if (const auto there = masses_there_.find({key, body}); there != masses_there_.end())
+    at->second = there->second;
+  else if (const int p = grid_.find_patch(key, body); p >= 0)
+    at->second = masses_of(grid_.patches()[static_cast<std::size_t>(p)]);
   if (const auto found = travelling_.find({key, body}); found != travelling_.end())
-    at->second = found->second;
-  const int p = grid_.find_patch(key, body);
-  if (p < 0) return at->second;
-  const Patch& patch = grid_.patches()[static_cast<std::size_t>(p)];
-  const PointColumns& c = bodies_[static_cast<std::size_t>(body)].columns;
+    for (std::size_t n = 0; n < kBlockNodes; ++n) at->second[n] += found->second[n];
+  return at->second;
+}
+
+/// Of the points that stay.
+Interior::Masses Interior::masses_of(const Patch& patch) const {
+  Masses out{};
+  const PointColumns& c = bodies_[static_cast<std::size_t>(patch.body)].columns;
   for (int i = 0; i < patch.points.count(); ++i) {
     double position[3] = {};
     for (int a = 0; a < grid_.geometry().dimension; ++a)
       position[a] = patch.points.at(c.position + kLanes * a, i);
-    add(at->second, grid_.geometry(key.level), position, patch.points.at(c.mass, i));
+    const int cell = cell_in_block(grid_.geometry(patch.key.level), position);
+    out[static_cast<std::size_t>(cell)] += patch.points.at(c.mass, i);
   }
-  return at->second;
+  return out;
+}
+
+std::vector<Interior::Traveller> Interior::travellers_of(const Patch& patch) const {
+  std::vector<Traveller> out;
+  const PointColumns& c = bodies_[static_cast<std::size_t>(patch.body)].columns;
+  const auto width = static_cast<std::size_t>(c.stride / kLanes);
+  for (const std::vector<double>* records : {&patch.outbox.records, &patch.outbox.other_level})
+    for (std::size_t k = 0; k < records->size(); k += width) {
+      const double *point = records->data() + k, *position = point + c.position / kLanes;
+      const BlockKey key = grid_.levels().block_at(position);
+      out.push_back({key, cell_in_block(grid_.geometry(key.level), position), point[c.mass / kLanes]});
+    }
+  return out;
 }
 
 void Interior::add_travellers() {
   counted_ = true;
   for (const Patch& patch : grid_.patches()) {
-    const PointColumns& c = bodies_[static_cast<std::size_t>(patch.body)].columns;
-    const auto width = static_cast<std::size_t>(c.stride / kLanes);
-    for (const std::vector<double>* records : {&patch.outbox.records, &patch.outbox.other_level})
-      for (std::size_t k = 0; k < records->size(); k += width) {
-        const double* point = records->data() + k;
-        const BlockKey key = grid_.levels().block_at(point + c.position / kLanes);
-        add(travelling_[{key, patch.body}], grid_.geometry(key.level), point + c.position / kLanes,
-            point[c.mass / kLanes]);
-      }
+    const auto there = travellers_there_.find({patch.key, patch.body});
+    for (const Traveller& t :
+         there != travellers_there_.end() ? there->second : travellers_of(patch))
+      travelling_[{t.to, patch.body}][static_cast<std::size_t>(t.cell)] += t.mass;
   }
 }
 
-void Interior::add(Masses& to, const GridGeometry& g, const double* position, double mass) const {
-  const int local = grid_.place_of_node(cell_at(g, position), g.level).second;
-  to[static_cast<std::size_t>(local)] += mass;
+void Interior::exchange(const Distribution& ranks) {
+  ranks.exchange_near(
+      [this](std::size_t p, std::vector<double>& out) {
+        const Patch& patch = grid_.patches()[p];
+        const Masses masses = masses_of(patch);
+        out.insert(out.end(), masses.begin(), masses.end());
+        const std::vector<Traveller> travellers = travellers_of(patch);
+        out.push_back(static_cast<double>(travellers.size()));
+        for (const Traveller& t : travellers)
+          out.insert(out.end(), {1.0 * t.to.i[0], 1.0 * t.to.i[1], 1.0 * t.to.i[2],
+                                 1.0 * t.to.level, 1.0 * t.cell, t.mass});
+      },
+      [this](std::size_t p, const double*& at) {
+        const Patch& patch = grid_.patches()[p];
+        std::copy_n(at, kBlockNodes, masses_there_[{patch.key, patch.body}].begin());
+        at += kBlockNodes;
+        auto& travellers = travellers_there_[{patch.key, patch.body}];
+        travellers.resize(static_cast<std::size_t>(*at++));
+        for (Traveller& t : travellers) {
+          for (std::int32_t& i : t.to.i) i = static_cast<std::int32_t>(*at++);
+          t.to.level = static_cast<std::int32_t>(*at++);
+          t.cell = static_cast<int>(*at++);
+          t.mass = *at++;
+        }
+      });
+}
+
+int Interior::cell_in_block(const GridGeometry& g, const double* position) const {
+  return grid_.place_of_node(cell_at(g, position), g.level).second;
 }
 
 }  // namespace krater

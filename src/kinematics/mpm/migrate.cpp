@@ -168,6 +168,7 @@ void post(Patch& patch, const Judgement& to, int i) {
   if (to.fate == Fate::changes_level) {
     patch.points.copy_out(i, patch.outbox.other_level);
     patch.outbox.keys.push_back(to.key);
+    patch.outbox.used |= Outbox::kOtherLevel;
     return;
   }
   patch.points.copy_out(i, patch.outbox.records);
@@ -207,6 +208,8 @@ Removed collect_leavers(Patch& patch, const Levels& levels, const BoundarySet& b
 }
 
 void send_away(Patch& patch, const Levels& levels, const PointColumns& columns) {
+  if (patch.count() > 0) patch.outbox.used |= Outbox::kOtherLevel;
+  patch.held = 0;
   for (int i = 0; i < patch.points.count(); ++i) {
     patch.points.copy_out(i, patch.outbox.other_level);
     patch.outbox.keys.push_back(places_of_point(patch, levels, columns, i).owner);
@@ -257,21 +260,40 @@ Removed adopt(BlockGrid& grid, int body, const std::vector<double>& records,
   return removed;
 }
 
-Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
-                     const PointColumns& c) {
-  Removed removed;
-  RecordsByBlock moved;
-  for (Patch& patch : grid.patches())
-    if (patch.body == body) sort_by_blocks(patch, grid.levels(), boundary, c, moved, removed);
-  grid.drop_patches(body);
-  const auto width = static_cast<std::size_t>(c.stride / kLanes);
-  for (const auto& [key, records] : moved) {
-    Patch& patch = grid.add_patch(key, body, c.stride);
-    for (std::size_t k = 0; k < records.size(); k += width) patch.append(records.data() + k);
-    patch.points.pad(c.mass);
+Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary, const PointColumns& c,
+                     const Distribution* ranks) {
+  std::vector<Removed> removed(grid.patches().size());
+  std::vector<std::vector<BlockKey>> to(removed.size());
+  std::vector<Arrival> moved;
+  const auto width = static_cast<std::ptrdiff_t>(c.stride / kLanes);
+  for (std::size_t p = 0; p < removed.size(); ++p) {
+    if (grid.patches()[p].body != body) continue;
+    RecordsByBlock sorted;
+    sort_by_blocks(grid.patches()[p], grid.levels(), boundary, c, sorted, removed[p]);
+    for (const auto& [key, records] : sorted) {
+      to[p].push_back(key);
+      for (auto at = records.begin(); at != records.end(); at += width)
+        moved.push_back({key, body, {at, at + width}, false, static_cast<int>(p)});
+    }
   }
+  if (ranks != nullptr) {
+    ranks->share(grid, removed);
+    ranks->share_keys(grid, to);
+    route(moved, *ranks);
+  }
+  Removed all;
+  for (const Removed& r : removed) all += r;
+  grid.drop_patches(body);
+  std::map<BlockKey, std::size_t> place;
+  for (const auto& keys : to)
+    for (const BlockKey& key : keys)
+      if (place.try_emplace(key, grid.patches().size()).second) grid.add_patch(key, body, c.stride);
+  for (const Arrival& a : moved) grid.patches()[place[a.key]].append(a.record.data());
+  for (const auto& [key, p] : place)
+    if (!grid.patches()[p].points.empty()) grid.patches()[p].points.pad(c.mass);
+  if (ranks != nullptr) ranks->share_counts(grid);
   grid.rebuild(true);
-  return removed;
+  return all;
 }
 
 }  // namespace krater

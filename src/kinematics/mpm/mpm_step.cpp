@@ -6,16 +6,11 @@
 #include <cmath>
 
 #include "krater/core/parallel.hpp"
-#include "krater/core/ranks.hpp"
-#include "krater/core/reproducible_sum.hpp"
 
 namespace krater {
 
 namespace {
 
-// A step is halved when the change of velocity alone would move material by more than this share of
-// a cell.
-constexpr double kMaxShare = 0.3;
 constexpr double kNewest = 0.1;  // share of the last step in what a patch is taken to cost
 
 /// Does its work, and smooths what that takes over steps.
@@ -99,7 +94,9 @@ double MpmStep::force(double dt) {
   external_impulse_ = {};
   if (method_.update == Update::usf && last_step_ > 0) strain_last_motion();
   if (method_.reference != Reference::current) measure_gaps();
-  if (loads_.any()) loads_.collect(plain_, all_settings(dt), [this] { return scratch(); });
+  if (loads_.any())
+    loads_.collect(
+        plain_, all_settings(dt), [this] { return scratch(); }, ranks_);
   particles_to_grid(kernels_, bodies_, dt);  // m_i, p_i, f_i, V_i
   grid_kinetic_ = momentum(dt, 1);           // v- = p/m, v+ = v- + dt f/m
   begin_rigid(dt, grid_kinetic_);
@@ -247,105 +244,26 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
     patch.result.fault = {};
     if (patch.here && patch.tile.state == Tile::State::stale) stale_.push_back(p);
   }
-  for_each(stale_.size(), [&](std::size_t i) {
-    Patch& patch = grid_.patches()[stale_[i]];
-    kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s[level_of(patch)],
-                    scratch());
-  });
-  if (ranks_ != nullptr) share_faults();
-  throw_faults();
-  if (ranks_ != nullptr) ranks_->exchange_tiles(grid_);
-  lap(Phase::scatter);
-}
-
-std::vector<MomentumSettings> MpmStep::momentum_settings(double dt_force) const {
-  std::vector<MomentumSettings> out;
-  for (int level = 0; level < grid_.levels().count(); ++level) {
-    MomentumSettings s = node_settings_;
-    s.dt_force = dt_force;
-    s.cell_volume = std::pow(grid_.geometry(level).h, grid_.geometry().dimension);
-    out.push_back(s);
-  }
-  return out;
-}
-
-double MpmStep::momentum(double& dt, double force_share) {
-  const std::vector<MomentumSettings> s = momentum_settings(force_share * dt);
-  const bool fluids = !fluid_patches_.empty(), loads = loads_.any() && force_share > 0;
-  const auto update = [&](std::size_t n) {
-    NodeBlock& block = grid_.node_blocks()[n];
-    kernels_.momentum(block, s[static_cast<std::size_t>(block.key.level)]);
+  const auto scatter = [&](std::size_t first, std::size_t end) {
+    for_each(end - first, [&](std::size_t i) {
+      Patch& patch = grid_.patches()[stale_[first + i]];
+      kernels.scatter(patch, bodies[static_cast<unsigned>(patch.body)], s[level_of(patch)],
+                      scratch());
+    });
   };
-  for_each(
-      grid_.node_blocks().size(),
-      [&](std::size_t n) {
-        NodeBlock& block = grid_.node_blocks()[n];
-        if (asleep(block)) return;
-        kernels_.sum_tiles(grid_, block);
-        if (!waits(block) && !fluids && !loads) update(n);
-      },
-      few_blocks());
-  if (fluids) {
-    if (force_share > 0 || method_.update == Update::usf) collect_pressure(settings(dt));
-    if (force_share > 0) add_pressure_force(settings(dt));
+  if (ranks_ == nullptr) {
+    scatter(0, stale_.size());
+    throw_faults();
+  } else {  // what others wait for first; of faults all hear in momentum()
+    const auto inner = std::stable_partition(stale_.begin(), stale_.end(), [this](std::size_t p) {
+      return ranks_->goes_out(p);
+    });
+    const auto outer = static_cast<std::size_t>(inner - stale_.begin());
+    scatter(0, outer);
+    ranks_->send_tiles(grid_);
+    scatter(outer, stale_.size());
   }
-  if (loads) loads_.add_forces(dt, node_settings_.smallest_mass);
-  if (fluids || loads)
-    for_each(
-        grid_.node_blocks().size(),
-        [&](std::size_t n) {
-          if (!waits(grid_.node_blocks()[n])) update(n);
-        },
-        few_blocks());
-  lap(Phase::nodes);
-  for (int level = grid_.levels().count() - 1; level >= 0; --level) {
-    boundary_.fold(level);
-    if (level > 0) ties_.restrict(level);
-  }
-  for_each(
-      waiting_blocks_.size(), [&](std::size_t i) { update(waiting_blocks_[i]); }, few_blocks());
-  ties_.sharpen(s);
-  const double share = safe_share(force_share * dt);
-  if (share < 1) shorten(dt, share);
-  lap(Phase::boundary);
-  ReproducibleSum kinetic;
-  for (const NodeBlock& block : grid_.node_blocks()) {
-    if (!block.counted || (rigid_.any() && rigid_.find(body_of(block.field)))) continue;
-    kinetic += block.sums.kinetic;
-  }
-  ranks::sum({&kinetic, 1});
-  return rigid_.kinetic() + kinetic.value();
-}
-
-/// Share of a step that the change of velocity alone may move material through its cells; halved
-/// until it does.
-double MpmStep::safe_share(double dt_force) const {
-  double most = 0;  // in cells of the coarsest level
-  for (const NodeBlock& block : grid_.node_blocks())
-    if (block.counted) most = std::max(most, std::ldexp(block.sums.max_change, block.key.level));
-  most = ranks::max(most);
-  double share = 1;
-  while (share * most * share * dt_force > kMaxShare * grid_.geometry().h) share *= 0.5;
-  return share;
-}
-
-void MpmStep::shorten(double& dt, double share) {
-  ties_.shorten(share);
-  dt *= share;
-  audit_.retries += 1;
-  for (NodeBlock& block : grid_.node_blocks()) {
-    block.sums.kinetic = 0;
-    for (double* node = block.nodes; node < block.nodes + kBlockNodes * kNodeDoubles;
-         node += kNodeDoubles) {
-      double speed2 = 0;
-      for (int a = 0; a < 3; ++a) {
-        node[a] -= (1 - share) * node[4 + a];
-        node[4 + a] *= share;
-        speed2 += node[a] * node[a];
-      }
-      block.sums.kinetic += 0.5 * node[3] * speed2;
-    }
-  }
+  lap(Phase::scatter);
 }
 
 void MpmStep::grid_to_particles(GatherPart part, double dt) {

@@ -47,7 +47,7 @@ void MpmStep::regrid(BlockSet refined) {
   for (Patch& patch : grid_.patches())
     if (!grid_.levels().holds(patch.key) || grid_.levels().is_refined(patch.key))
       send_away(patch, grid_.levels(), bodies_[static_cast<std::size_t>(patch.body)].columns);
-  book_delivered(deliver(grid_, boundary_, bodies_, sizes_));
+  book_delivered(deliver(grid_, boundary_, bodies_, sizes_, 0, ranks_));
   grid_.rebuild(true);
   relink();
   lap(Phase::migrate);
@@ -58,6 +58,7 @@ void MpmStep::merge() {
   const int corners = corner_count(grid_.geometry().dimension);
   for_each(merged.size(), [&](std::size_t p) {
     Patch& patch = grid_.patches()[p];
+    if (!patch.here) return;
     const auto body = static_cast<std::size_t>(patch.body);
     for (int c = 0; c < corners; ++c)
       if (grid_
@@ -68,6 +69,10 @@ void MpmStep::merge() {
     merged[p] = merge_points(patch, grid_.geometry(patch.key.level), bodies_[body], sizes_[body],
                              merge_plans_[body]);
   });
+  if (ranks_ != nullptr) {
+    ranks_->share(grid_, merged);
+    ranks_->share_counts(grid_);
+  }
   for (const Merged& m : merged) {
     audit_.book_level(m.heat, m.unfelt);
     audit_.merged_points += m.points;
@@ -80,23 +85,40 @@ void MpmStep::split_stretched() {
   for_each(found.size(), [&](std::size_t p) {
     const Patch& patch = grid_.patches()[p];
     const auto body = static_cast<std::size_t>(patch.body);
-    if (sizes_[body].halves)
+    if (patch.here && sizes_[body].halves)
       found[p] = stretched_points(patch, grid_.geometry(patch.key.level), bodies_[body].columns,
                                   sizes_[body]);
   });
-  std::size_t all = 0;
-  for (std::size_t p = 0; p < found.size(); ++p) {  // one after the other: numbers go on
-    if (found[p].empty()) continue;
+  struct Halved {
+    double points, heat;
+    std::uint32_t used;  ///< of the outbox
+  };
+  std::vector<Halved> halved;
+  for (const std::vector<int>& points : found)
+    halved.push_back({static_cast<double>(points.size()), 0, 0});
+  if (ranks_ != nullptr) ranks_->share(grid_, halved);
+  for (std::size_t p = 0; p < found.size(); ++p) {  // numbers go on in the order of patches
     Patch& patch = grid_.patches()[p];
     const auto body = static_cast<std::size_t>(patch.body);
-    const double heat = split_stretched_points(patch, grid_.levels(), bodies_[body].columns,
-                                               sizes_[body], found[p]);
-    audit_.book_level(heat, feels_no_energy(p) ? heat : 0);
-    all += found[p].size();
+    PointSize size = sizes_[body];
+    sizes_[body].next_id += halved[p].points;
+    if (halved[p].points > 0) patch.steady = false;
+    if (found[p].empty()) continue;
+    halved[p].heat =
+        split_stretched_points(patch, grid_.levels(), bodies_[body].columns, size, found[p]);
+    halved[p].used = patch.outbox.used;
   }
-  if (all == 0) return;
-  audit_.split_points += static_cast<double>(all);
-  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_);
+  if (ranks_ != nullptr) ranks_->share(grid_, halved);
+  double all = 0;
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    if (!(halved[p].points > 0)) continue;
+    audit_.book_level(halved[p].heat, feels_no_energy(p) ? halved[p].heat : 0);
+    grid_.patches()[p].outbox.used = halved[p].used;
+    all += halved[p].points;
+  }
+  if (!(all > 0)) return;
+  audit_.split_points += all;
+  const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_, 0, ranks_);
   book_delivered(delivered);
   if (delivered.changed)
     relink();

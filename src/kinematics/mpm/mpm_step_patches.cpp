@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "krater/core/parallel.hpp"
-#include "krater/core/ranks.hpp"
 #include "krater/kinematics/mpm/mpm_step.hpp"
 
 namespace krater {
@@ -34,7 +33,7 @@ bool MpmStep::may_sleep(GatherPart part) const {
 }
 
 bool MpmStep::asleep(const NodeBlock& block) const {
-  if (!block.inert || waits(block) || !fluid_patches_.empty()) return false;
+  if (!block.inert || block.completed || waits(block) || !fluid_patches_.empty()) return false;
   for (int t = block.first_tile; t < block.first_tile + block.tiles; ++t) {
     const int p = grid_.tile_refs()[static_cast<std::size_t>(t)].patch;
     const Tile& tile = grid_.patches()[static_cast<std::size_t>(p)].tile;
@@ -98,12 +97,11 @@ void MpmStep::gather_and_collect(std::size_t p, GatherPart part, const SweepSett
   if (then.scatters && steady && patch.steady) scatter_ahead(patch, s, w);
 }
 
-/// Where one patch cannot be scattered, all ranks must hear of it.
-void MpmStep::share_faults() {
-  const bool any = std::any_of(grid_.patches().begin(), grid_.patches().end(), [](const Patch& p) {
+/// Some patch of this rank could not be scattered.
+bool MpmStep::faults_here() const {
+  return std::any_of(grid_.patches().begin(), grid_.patches().end(), [](const Patch& p) {
     return p.here && p.result.fault.kind != FaultKind::none;
   });
-  if (ranks::max(any ? 1 : 0) > 0) ranks_->share_results(grid_, removed_);
 }
 
 // Points are read from memory once a step: the next scatter follows the gather of a patch while its

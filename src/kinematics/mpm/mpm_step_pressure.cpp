@@ -37,7 +37,7 @@ void MpmStep::relink_fluids() {
   const int dimension = grid_.geometry().dimension;
   for (std::size_t p = 0; p < grid_.patches().size(); ++p) {
     Patch& patch = grid_.patches()[p];
-    if (!is_fluid(bodies_[static_cast<std::size_t>(patch.body)])) continue;
+    if (!patch.near || !is_fluid(bodies_[static_cast<std::size_t>(patch.body)])) continue;
     patch.owns_cells = true;  // patches of one block stand side by side
     for (auto other = fluid_patches_.rbegin();
          other != fluid_patches_.rend() && grid_.patches()[*other].key == patch.key; ++other)
@@ -63,9 +63,24 @@ double* MpmStep::second_record(double* node) {
 void MpmStep::sweep_fluids(PressurePart part, const SweepSettings& s) {
   for_each(fluid_patches_.size(), [&](std::size_t i) {
     Patch& patch = grid_.patches()[fluid_patches_[i]];
-    kernels_.pressure(patch, grid_, bodies_[static_cast<std::size_t>(patch.body)], s, scratch(),
-                      part);
+    if (patch.here)
+      kernels_.pressure(patch, grid_, bodies_[static_cast<std::size_t>(patch.body)], s, scratch(),
+                        part);
   });
+  if (ranks_ == nullptr) return;
+  const auto size = static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) * kNodeDoubles;
+  ranks_->exchange_near(
+      [&](std::size_t p, std::vector<double>& out) {
+        const Patch& patch = grid_.patches()[p];
+        if (is_fluid(bodies_[static_cast<std::size_t>(patch.body)]))
+          out.insert(out.end(), patch.pressure_tile.data(), patch.pressure_tile.data() + size);
+      },
+      [&](std::size_t p, const double*& at) {
+        Patch& patch = grid_.patches()[p];
+        if (!is_fluid(bodies_[static_cast<std::size_t>(patch.body)])) return;
+        std::copy_n(at, size, patch.pressure_tile.data());
+        at += size;
+      });
 }
 
 // Slots [first, last) of the second records from the tiles, in their fixed order.

@@ -24,7 +24,10 @@ void MpmStep::measure_gaps() {
     plain_.scatter(patch, position_as_velocity_[static_cast<unsigned>(patch.body)], s, scratch());
     patch.tile.state = Tile::State::stale;
   });
-  if (ranks_ != nullptr) ranks_->exchange_tiles(grid_);
+  if (ranks_ != nullptr) {
+    ranks_->send_tiles(grid_);
+    ranks_->receive_tiles(grid_);
+  }
   for (const std::size_t n : waiting_blocks_)
     if (grid_.node_blocks()[n].at_wall) kernels_.sum_tiles(grid_, grid_.node_blocks()[n]);
   boundary_.note_gaps();
@@ -38,7 +41,7 @@ bool MpmStep::renew_references() {
     if (largest_strain(grid_, static_cast<int>(b)) <= method_.refresh_strain) continue;
     double heat = 0;
     const Removed r =
-        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, heat);
+        renew_reference(grid_, static_cast<int>(b), boundary_, bodies_[b].columns, ranks_, heat);
     audit_.kinetic -= heat;
     audit_.internal += heat;
     (heat > 0 ? audit_.transfer_loss : audit_.transfer_gain) += heat;

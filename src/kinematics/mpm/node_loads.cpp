@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "krater/core/parallel.hpp"
+#include "krater/core/ranks.hpp"
 
 namespace krater {
 
@@ -48,7 +49,8 @@ bool NodeLoads::marked(const Patch& patch) const {
 }
 
 void NodeLoads::collect(const Kernels& kernels, std::vector<SweepSettings> by_level,
-                        const std::function<SweepScratch()>& scratch) {
+                        const std::function<SweepScratch()>& scratch,
+                        const Distribution* ranks) {
   for (std::size_t k = 0; k < now_.size(); ++k)
     for (std::size_t a = 0; a < 3; ++a)
       now_[k][a] = options_.faces[k].value[a] ? options_.faces[k].value[a](time_) : 0;
@@ -58,6 +60,7 @@ void NodeLoads::collect(const Kernels& kernels, std::vector<SweepSettings> by_le
   if (options_.faces.empty()) return;
   std::vector<char> marks(patches.size());
   for_each(patches.size(), [&](std::size_t p) { marks[p] = marked(patches[p]) ? 1 : 0; });
+  if (ranks != nullptr) ranks->share(grid_, marks);
   for (SweepSettings& s : by_level) s.average_cells = false;  // beta is that of the stress
   const auto size = static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) * kNodeDoubles;
   for_each(patches.size(), [&](std::size_t p) {
@@ -67,14 +70,25 @@ void NodeLoads::collect(const Kernels& kernels, std::vector<SweepSettings> by_le
     const bool near = std::any_of(beside.begin(), beside.begin() + count, [&](int n) {
       return n >= 0 && marks[static_cast<std::size_t>(n)] != 0;
     });
-    if (!near && marks[p] == 0) return;
+    if (!patch.near || (!near && marks[p] == 0)) return;
+    loaded_[p] = 1;
+    tiles_[p].reserve(size);
+    if (!patch.here) return;
     patch.result.fault = {};
     kernels.scatter(patch, areas_[static_cast<std::size_t>(patch.body)],
                     by_level[static_cast<std::size_t>(patch.key.level)], scratch());
-    tiles_[p].reserve(size);
     std::copy(patch.tile.data(), patch.tile.data() + size, tiles_[p].data());
-    loaded_[p] = 1;
   });
+  if (ranks == nullptr) return;
+  ranks->exchange_near(
+      [&](std::size_t p, std::vector<double>& out) {
+        if (loaded_[p] != 0) out.insert(out.end(), tiles_[p].data(), tiles_[p].data() + size);
+      },
+      [&](std::size_t p, const double*& at) {
+        if (loaded_[p] == 0) return;
+        std::copy_n(at, size, tiles_[p].data());
+        at += size;
+      });
 }
 
 /// Records of the areas of one body at the nodes of a block; false: none.
@@ -198,15 +212,22 @@ LoadWork NodeLoads::work(double dt) const {
         parts[b].damping_impulse[static_cast<unsigned>(a)] += force[kForces * n + 3 + a];
       }
   });
-  LoadWork sum;
-  for (const LoadWork& part : parts) {
-    sum.faces += dt * part.faces;
-    sum.damping += dt * part.damping;
+  ReproducibleSums<8> sums;
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    if (!grid_.node_blocks()[b].counted) continue;
+    sums.all[0] += dt * parts[b].faces;
+    sums.all[1] += dt * parts[b].damping;
     for (std::size_t a = 0; a < 3; ++a) {
-      sum.face_impulse[a] += dt * part.face_impulse[a];
-      sum.damping_impulse[a] += dt * part.damping_impulse[a];
+      sums.all[2 + a] += dt * parts[b].face_impulse[a];
+      sums.all[5 + a] += dt * parts[b].damping_impulse[a];
     }
   }
+  ranks::sum(sums.all);
+  LoadWork sum;
+  sum.faces = sums.all[0].value();
+  sum.damping = sums.all[1].value();
+  sums.read(sum.face_impulse.data(), 3, 2);
+  sums.read(sum.damping_impulse.data(), 3, 5);
   return sum;
 }
 

@@ -121,8 +121,8 @@ double largest_strain(const BlockGrid& grid, int body) {
 }
 
 Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
-                        const PointColumns& columns, double& heat) {
-  heat = 0;
+                        const PointColumns& columns, const Distribution* ranks, double& heat) {
+  ReproducibleSum sum;
   for (Patch& patch : grid.patches()) {
     if (patch.body != body) continue;
     for (int i = 0; i < patch.points.count(); ++i) {
@@ -130,10 +130,12 @@ Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
       renew_point(patch.points, columns, grid.geometry().dimension, i);
       const double lost = before - point_kinetic(patch.points.point(i), columns, grid.geometry());
       patch.points.at(columns.energy, i) += lost / patch.points.at(columns.mass, i);
-      heat += lost;
+      sum += lost;
     }
   }
-  return redistribute(grid, body, boundary, columns);
+  ranks::sum({&sum, 1});
+  heat = sum.value();
+  return redistribute(grid, body, boundary, columns, ranks);
 }
 
 std::array<double, 3> push_from_walls(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,

@@ -50,6 +50,7 @@ double split_stretched_points(Patch& patch, const Levels& levels, const PointCol
     Outbox& box = patch.outbox;
     box.other_level.insert(box.other_level.end(), half.record.begin(), half.record.end());
     box.keys.push_back(key);
+    box.used |= Outbox::kOtherLevel;
   }
   if (!patch.points.empty()) patch.points.pad(c.mass);
   return heat;

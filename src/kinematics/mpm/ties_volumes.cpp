@@ -42,7 +42,9 @@ void Ties::link_parents() {
       parent.finer[static_cast<std::size_t>(s)] = finer;
       any = any || finer >= 0;
     }
-    if (any) parents_.push_back(parent);
+    if (!any) continue;
+    parents_.push_back(parent);
+    grid_.node_blocks()[b].completed = true;
   }
 }
 

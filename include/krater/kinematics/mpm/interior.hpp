@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "krater/contact/boundary.hpp"
+#include "krater/distribute/distribution.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
 #include "krater/kinematics/mpm/split.hpp"
 
@@ -26,6 +27,8 @@ class Interior {
   Interior(const BlockGrid& grid, const BoundaryConditions& conditions,
            const std::vector<BodyKernelData>& bodies, const std::vector<PointSize>& sizes)
       : grid_{grid}, conditions_{conditions}, bodies_{bodies}, sizes_{sizes} {}
+  /// What other ranks have near the points of this one. Collective.
+  void exchange(const Distribution& ranks);
 
   bool holds(const double* position, int level, int body);
 
@@ -40,12 +43,20 @@ class Interior {
   };
   enum class Side { inside, image, end };
 
+  /// A point on its way.
+  struct Traveller {
+    BlockKey to;
+    int cell;  ///< of the block
+    double mass;
+  };
+  Masses masses_of(const Patch& patch) const;
+  std::vector<Traveller> travellers_of(const Patch& patch) const;
   Side side_of(const Cell& cell, const GridGeometry& geometry) const;
   bool full(const CellKey& key);
   double mass(const Cell& cell, int level, int body);
   const Masses& masses(const BlockKey& key, int body);
   void add_travellers();
-  void add(Masses& to, const GridGeometry& geometry, const double* position, double mass) const;
+  int cell_in_block(const GridGeometry& geometry, const double* position) const;
 
   const BlockGrid& grid_;
   const BoundaryConditions& conditions_;
@@ -53,6 +64,9 @@ class Interior {
   const std::vector<PointSize>& sizes_;
   bool counted_ = false;  ///< the points under way
   std::map<std::pair<BlockKey, int>, Masses> travelling_, masses_;
+  /// Of patches of other ranks.
+  std::map<std::pair<BlockKey, int>, Masses> masses_there_;
+  std::map<std::pair<BlockKey, int>, std::vector<Traveller>> travellers_there_;
   std::map<CellKey, bool> full_;
 };
 

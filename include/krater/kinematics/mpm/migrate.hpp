@@ -37,6 +37,10 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
                   const std::vector<BodyKernelData>& bodies, std::vector<PointSize>& sizes,
                   double ahead = 0, Distribution* ranks = nullptr);
 
+/// Points to the ranks that have their blocks; what comes here is in the order of its patches
+/// again. Collective.
+void route(std::vector<Arrival>& arrivals, const Distribution& ranks);
+
 /// New points of `body`, records of stride/8 doubles, to the blocks of their positions; what lies
 /// beyond an open side is removed at once. Relink afterwards.
 Removed adopt(BlockGrid& grid, int body, const std::vector<double>& records,
@@ -46,7 +50,7 @@ Removed adopt(BlockGrid& grid, int body, const std::vector<double>& records,
 /// domain through its open sides; for a new reference configuration. Order: by id-preserving old
 /// order, so the bits do not depend on threads. Relink afterwards.
 Removed redistribute(BlockGrid& grid, int body, const BoundarySet& boundary,
-                     const PointColumns& columns);
+                     const PointColumns& columns, const Distribution* ranks = nullptr);
 
 /// Kinetic energy of a point (PointStore::point), affine part included (second moment h^2/4) [J].
 inline double point_kinetic(const double* point, const PointColumns& c, const GridGeometry& grid) {

@@ -139,7 +139,9 @@ class MpmStep final : public Kinematics {
   void write_node_work();
   void book();
   std::vector<MomentumSettings> momentum_settings(double dt_force) const;
-  double safe_share(double dt_force) const;
+  ReproducibleSum node_kinetic() const;
+  double greatest_change() const;
+  double safe_share(double most, double dt_force) const;
   void shorten(double& dt, double share);
   void watch_energy() const;
   void name_limit(Patch& patch) const;
@@ -177,7 +179,7 @@ class MpmStep final : public Kinematics {
   }
   void provide_memory();
   void throw_faults() const;
-  void share_faults();
+  bool faults_here() const;
   void migrate();
   void book_delivered(const Delivered& delivered);
   bool renew_references();

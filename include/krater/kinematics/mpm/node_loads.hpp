@@ -27,6 +27,7 @@
 
 #include "krater/contact/boundary.hpp"
 #include "krater/grid/overlaps.hpp"
+#include "krater/distribute/distribution.hpp"
 #include "krater/kinematics/load_options.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
 
@@ -58,7 +59,7 @@ class NodeLoads {
   void set_time(double time) { time_ = time; }
   /// Areas and shares of the loaded bodies; before the tiles are scattered, which it uses.
   void collect(const Kernels& kernels, std::vector<SweepSettings> by_level,
-               const std::function<SweepScratch()>& scratch);
+               const std::function<SweepScratch()>& scratch, const Distribution* ranks = nullptr);
   /// Forces of pressures, tractions and damping; nodes hold [m, p, f, V], nothing folded yet.
   void add_forces(double dt, double smallest_mass);  ///< lighter nodes feel none [kg]
   /// Prescribed velocities; nodes hold [v+, m, dv, V].

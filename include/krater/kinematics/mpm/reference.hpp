@@ -27,7 +27,7 @@ double largest_strain(const BlockGrid& grid, int body);
 /// `heat`: lost by the affine part, and given to the points as internal energy [J]. Relink
 /// afterwards.
 Removed renew_reference(BlockGrid& grid, int body, const BoundarySet& boundary,
-                        const PointColumns& columns, double& heat);
+                        const PointColumns& columns, const Distribution* ranks, double& heat);
 
 /// Add the accelerations of all walls to the points' body forces. `spacing`: of the points on the
 /// reference [m]. Returns the impulse per unit of time [N].

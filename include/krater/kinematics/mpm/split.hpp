@@ -57,6 +57,7 @@ struct Arrival {
   int body = 0;
   std::vector<double> record;
   bool inside = false;  ///< matter is all around
+  int source = 0;       ///< patch that it comes from
 };
 
 /// A point that came from cells of the level `from` is too large where it is.
