@@ -19,8 +19,9 @@ void Readiness::agree(const std::string& scene) {
   if (ranks::max(0) > 0) throw InputError("krater: another rank could not begin");
   const auto name = static_cast<double>(std::hash<std::string>{}(scene) >> 12U);  // exact
   if (ranks::max(name) != -ranks::max(-name))
-    throw InputError("krater: the ranks do not have the same scene: start all of them with the "
-                     "same file and the same --set");
+    throw InputError(
+        "krater: the ranks do not have the same scene: start all of them with the "
+        "same file and the same --set");
 }
 
 }  // namespace krater

@@ -193,8 +193,7 @@ void Distribution::send_tiles(BlockGrid& grid) {
       const bool is_new = known_.insert({{neighbours_[n].rank, patch.body}, patch.key}).second;
       data.push_back(asleep ? 1 : 0);
       data.push_back(asleep && !is_new ? 0 : 1);
-      if (!asleep || is_new)
-        data.insert(data.end(), patch.tile.data(), patch.tile.data() + size);
+      if (!asleep || is_new) data.insert(data.end(), patch.tile.data(), patch.tile.data() + size);
     }
   }
   ranks::send(sent_);

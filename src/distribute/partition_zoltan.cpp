@@ -33,10 +33,10 @@ struct Partition::Cuts {
     const std::string parts = std::to_string(ranks::count());
     for (const auto& [name, value] :
          {std::pair{"DEBUG_LEVEL", "0"}, std::pair{"NUM_GLOBAL_PARTS", parts.c_str()},
-          std::pair{"LB_METHOD", "RCB"}, std::pair{"KEEP_CUTS", "1"},
-          std::pair{"RCB_REUSE", "1"}, std::pair{"OBJ_WEIGHT_DIM", "1"},
-          std::pair{"NUM_GID_ENTRIES", "1"}, std::pair{"NUM_LID_ENTRIES", "1"},
-          std::pair{"RETURN_LISTS", "NONE"}, std::pair{"RCB_RECTILINEAR_BLOCKS", "0"}})
+          std::pair{"LB_METHOD", "RCB"}, std::pair{"KEEP_CUTS", "1"}, std::pair{"RCB_REUSE", "1"},
+          std::pair{"OBJ_WEIGHT_DIM", "1"}, std::pair{"NUM_GID_ENTRIES", "1"},
+          std::pair{"NUM_LID_ENTRIES", "1"}, std::pair{"RETURN_LISTS", "NONE"},
+          std::pair{"RCB_RECTILINEAR_BLOCKS", "0"}})
       Zoltan_Set_Param(zoltan, name, value);
     Zoltan_Set_Num_Obj_Fn(zoltan, count_blocks, this);
     Zoltan_Set_Obj_List_Fn(zoltan, list_blocks, this);

@@ -241,7 +241,7 @@ const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelecti
 }
 
 bool looks_at_points(const Scene& scene) {
-  return scene.method.numerical_fracture == NumericalFracture::watch ||
+  return scene.method.numerical_fracture != NumericalFracture::ignore ||
          std::any_of(scene.measures.begin(), scene.measures.end(), [](const MeasureOptions& m) {
            return m.kind != MeasureKind::impulse && m.kind != MeasureKind::force;
          });
@@ -249,7 +249,7 @@ bool looks_at_points(const Scene& scene) {
 
 bool draws_all_points(const Scene& scene) {
   const std::vector<std::string>& fields = scene.output.fields;
-  return scene.method.numerical_fracture == NumericalFracture::watch ||
+  return scene.method.numerical_fracture != NumericalFracture::ignore ||
          std::find(fields.begin(), fields.end(), kFragmentField) != fields.end();
 }
 

@@ -121,7 +121,7 @@ void write_mesh(const Node& group, GroupWriter& arrays, const BodyFrame& body,
   const auto cells = arrays.add("connectivity", mesh.corners, mesh.connectivity);
   cells->set("unit", std::string("1"));
   cells->set("meaning", std::string("nodes of each cell: hexahedra bottom counter-clockwise, then "
-                                   "the top; quadrilaterals around"));
+                                    "the top; quadrilaterals around"));
   const Node nodes = group.make_group("nodes");
   GroupWriter of_nodes{nodes, mesh.nodes};
   write_coordinates(of_nodes, mesh.coordinates);

@@ -178,8 +178,8 @@ template Node Node::make_packed_space<std::int64_t>(const std::string&, const Sh
                                                     std::uint64_t&) const;
 template void Node::pack_rows(const Shape&, std::uint64_t, const Rows<double>&, std::uint64_t,
                               std::uint64_t) const;
-template void Node::pack_rows(const Shape&, std::uint64_t, const Rows<std::int64_t>&,
-                              std::uint64_t, std::uint64_t) const;
+template void Node::pack_rows(const Shape&, std::uint64_t, const Rows<std::int64_t>&, std::uint64_t,
+                              std::uint64_t) const;
 
 void Node::link_external(const std::string& name, const std::string& file,
                          const std::string& path) const {

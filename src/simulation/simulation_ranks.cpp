@@ -18,7 +18,6 @@ namespace krater {
 
 namespace {
 
-
 /// All ranks are at it: an error that the others cannot know of would let them wait for ever.
 template <class Work>
 void together(const Work& work) {
@@ -54,8 +53,7 @@ int reach(const Scene& scene) {
     pushing += sides[0].pushes() || sides[1].pushes() ? 1 : 0;
   }
   const int levels = scene.grid.refine.empty() ? 0 : 1;
-  return 1 + levels + (closed > 0 ? 1 : 0) + (pushing > 1 ? 1 : 0) +
-         (scene.contact.active ? 1 : 0);
+  return 1 + levels + (closed > 0 ? 1 : 0) + (pushing > 1 ? 1 : 0) + (scene.contact.active ? 1 : 0);
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ std::vector<double> Simulation::records_of_slab(std::size_t first, std::size_t e
   const auto before = [](const auto& point, double id) { return point.first < id; };
   const auto from = std::lower_bound(slabs_->own.begin(), slabs_->own.end(),
                                      static_cast<double>(first) * Slabs::kShelf, before);
-  const auto to = std::lower_bound(from, slabs_->own.end(),
-                                   static_cast<double>(end) * Slabs::kShelf, before);
+  const auto to =
+      std::lower_bound(from, slabs_->own.end(), static_cast<double>(end) * Slabs::kShelf, before);
   for (auto point = from; point != to; ++point) {
     const auto [s, i] = point->second;
     out.push_back(geometry_of(s).level);

@@ -44,8 +44,9 @@ CASES = {
                                      "{where: {field: plastic_strain, above: 0.3}, level: 2}]"], [CUT, SCATTERED]),
     # the same along a path, with a rigid body and a gauge
     "penetration": ("snl/penetration.yaml", ["grid.cell=76.2 mm", "time.end=0.4 ms", "output.frames=0.2 ms"], [SCATTERED]),
-    # finer cells of two bodies in contact, in space
+    # finer cells of two bodies in contact, in space; long points in halves
     "levels_space": ("ccf_two_bars.yaml", ["grid.cell=1.25 mm", "time.end=4 us", "output.frames=2 us",
+                                           "method.numerical_fracture=split",
                                            "grid.refine=[{where: {field: plastic_strain, above: 0.2}, level: 1}]"],
                      [SCATTERED]),
     # a filtered transfer; a reference configuration that is renewed; loads on faces; pressure on the grid
@@ -53,7 +54,8 @@ CASES = {
              [SCATTERED]),
     "adaptive": ("taylor_copper.yaml", ["time.end=8 us", "output.frames=4 us", "grid.cell=0.5 mm",
                                         "method.reference=adaptive"], [SCATTERED]),
-    "loaded": ("copper_spall.yaml", ["grid.cell=0.05 mm", "time.end=0.6 us", "output.frames=0.3 us"], [SCATTERED]),
+    "loaded": ("copper_spall.yaml", ["grid.cell=0.04 mm", "time.end=0.4 us", "output.frames=0.2 us",
+                                    "grid.box.max=[0.08 mm, 6 mm]"], [SCATTERED]),
     "fluid": ("plate_impact.yaml", ["time.end=0.3 us", "output.frames=0.1 us"], [SCATTERED]),
 }
 

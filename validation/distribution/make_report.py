@@ -35,7 +35,7 @@ SCENES = {
     "taylor_copper, initial": ["time.end=4 us", "output.frames=2 us", "method.reference=initial"],
     "taylor_steel": ["time.end=4 us", "output.frames=2 us"],
     "plate_impact": ["time.end=0.4 us", "output.frames=0.2 us"],
-    "copper_spall": ["grid.cell=0.05 mm", "time.end=0.6 us", "output.frames=0.3 us"],
+    "copper_spall": ["grid.cell=0.04 mm", "grid.box.max=[0.08 mm, 6 mm]", "time.end=0.6 us", "output.frames=0.3 us"],
     "cylinder_test": ["time.end=4 us", "output.frames=2 us"],
     "ccf_plugging": ["grid.cell=1 mm", "time.end=20 us", "output.frames=10 us"],
     "ccf_two_bars": ["grid.cell=1.25 mm", "time.end=3 us", "output.frames=1.5 us"],

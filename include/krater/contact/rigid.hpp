@@ -144,7 +144,7 @@ class RigidBodies {
 
  private:
   std::vector<RigidBody> bodies_;
-  std::vector<int> of_body_;        ///< index in bodies_, -1
+  std::vector<int> of_body_;  ///< index in bodies_, -1
   double time_ = 0;
 };
 

@@ -62,8 +62,7 @@ class Distribution {
     const std::vector<ranks::Message> in = ranks::exchange(out, from);
     for (std::size_t m = 0; m < in.size(); ++m) {
       const double* at = in[m].data.data();
-      for (const int p : neighbours_[m].receive)
-        read(static_cast<std::size_t>(p), at);
+      for (const int p : neighbours_[m].receive) read(static_cast<std::size_t>(p), at);
     }
   }
   /// To whatever ranks: a message for each rank, empty or not; what comes, by rank.
@@ -106,7 +105,7 @@ class Distribution {
   int width_;
   std::vector<PointColumns> columns_;
   Partition partition_;
-  std::vector<Neighbour> neighbours_;  ///< by rank
+  std::vector<Neighbour> neighbours_;            ///< by rank
   std::vector<ranks::Message> sent_, received_;  ///< tiles, by neighbour; their memory stays
   std::vector<char> goes_out_;                   ///< by patch
   /// Patches of this rank whose tile a rank has had since it needs it: (rank, body, key).

@@ -58,9 +58,9 @@ struct Outbox {
 
 /// What one sweep over a patch leaves behind; combined over patches in patch order.
 struct PatchResult {
-  double max_rate = 0;                    ///< 1/dt at CFL 1, theory 12 [1/s]
-  int limiter = 0;                        ///< 0 wave, 1 flow, 2 dilatation
-  int limiting_point = 0;                 ///< index in the patch; after the gather the point's id
+  double max_rate = 0;     ///< 1/dt at CFL 1, theory 12 [1/s]
+  int limiter = 0;         ///< 0 wave, 1 flow, 2 dilatation
+  int limiting_point = 0;  ///< index in the patch; after the gather the point's id
   int crossed = 0;  ///< of a rigid body: 1 + 2 axis + closed side that a point has crossed; 0: none
   double kinetic = 0;                     ///< [J], affine part included
   double internal = 0;                    ///< [J]
@@ -146,7 +146,7 @@ struct NodeBlock {
   int first_tile = 0, tiles = 0;  ///< range of BlockGrid::tile_refs
   std::uint64_t tied = 0;         ///< nodes that follow from those of the level above, a bit each
   bool at_tie = false;            ///< holds such nodes, some that they follow from, or next to them
-  bool completed = false;  ///< contact adds the volumes of finer nodes: never passed over
+  bool completed = false;         ///< contact adds the volumes of finer nodes: never passed over
   bool at_boundary = false;
   bool at_wall = false;  ///< holds columns of a unilateral wall
   bool whole = true;     ///< all its tiles are of this rank

@@ -125,7 +125,7 @@ class Simulation {
   const GridGeometry& geometry() const { return geometry_; }
   std::vector<Totals> totals_by_body() const;
   double deviatoric_energy() const;  ///< elastic [J]
-  Totals totals() const;  ///< of all bodies
+  Totals totals() const;             ///< of all bodies
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
   /// All points, in sets of one body; the order is part of the state. First elements, then

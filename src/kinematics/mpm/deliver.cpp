@@ -78,8 +78,7 @@ void await(BlockGrid& grid, const Places& arriving) {
 }
 
 void make_patches(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
-                  const Places& arriving, double ahead, const Distribution* ranks,
-                  Places missing) {
+                  const Places& arriving, double ahead, const Distribution* ranks, Places missing) {
   await(grid, arriving);
   if (ahead > 0) look_ahead(grid, bodies, ahead, ranks, missing);
   grid.drop_patches_if(is_idle);
@@ -107,8 +106,9 @@ struct Changed {
 };
 
 /// The points of a patch that changed their level, whole or in parts, and halves of long ones.
-Changed change_level(const BlockGrid& grid, std::size_t p, const std::vector<BodyKernelData>& bodies,
-                     const PointSize& of_body, Interior& interior, std::vector<Arrival>& arrivals) {
+Changed change_level(const BlockGrid& grid, std::size_t p,
+                     const std::vector<BodyKernelData>& bodies, const PointSize& of_body,
+                     Interior& interior, std::vector<Arrival>& arrivals) {
   const Patch& patch = grid.patches()[p];
   const Outbox& box = patch.outbox;
   const BodyKernelData& body = bodies[static_cast<std::size_t>(patch.body)];
@@ -144,9 +144,9 @@ std::vector<Arrival> find_arrivals(BlockGrid& grid, const BoundarySet& boundary,
   if (ranks != nullptr) interior.exchange(*ranks);
   std::vector<Changed> changed(grid.patches().size());
   for (std::size_t p = 0; p < changed.size(); ++p)
-    changed[p] = change_level(grid, p, bodies,
-                              sizes[static_cast<std::size_t>(grid.patches()[p].body)], interior,
-                              arrivals);
+    changed[p] =
+        change_level(grid, p, bodies, sizes[static_cast<std::size_t>(grid.patches()[p].body)],
+                     interior, arrivals);
   if (ranks != nullptr) ranks->share(grid, changed);
   std::vector<double> first(changed.size());  // number of the first point that a patch makes
   for (std::size_t p = 0; p < changed.size(); ++p) {
@@ -191,8 +191,9 @@ void route(std::vector<Arrival>& arrivals, const Distribution& ranks) {
       continue;
     }
     std::vector<double>& data = by_rank[static_cast<std::size_t>(to)];
-    data.insert(data.end(), {1.0 * a.source, 1.0 * a.body, 1.0 * a.key.i[0], 1.0 * a.key.i[1],
-                             1.0 * a.key.i[2], 1.0 * a.key.level, 1.0 * a.record.size()});
+    data.insert(data.end(),
+                {1.0 * a.source, 1.0 * a.body, 1.0 * a.key.i[0], 1.0 * a.key.i[1], 1.0 * a.key.i[2],
+                 1.0 * a.key.level, static_cast<double>(a.record.size())});
     data.insert(data.end(), a.record.begin(), a.record.end());
   }
   for (const ranks::Message& message : Distribution::exchange_any(std::move(by_rank)))
@@ -228,6 +229,13 @@ void take_arrivals(BlockGrid& grid, const std::vector<BodyKernelData>& bodies,
   }
 }
 
+/// Of those that have lost points and got none.
+void pad_changed(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
+  for (Patch& patch : grid.patches())
+    if (!patch.steady && !patch.points.empty())
+      patch.points.pad(bodies[static_cast<std::size_t>(patch.body)].columns.mass);
+}
+
 void take_from_neighbours(BlockGrid& grid, const std::vector<BodyKernelData>& bodies) {
   const int slots = neighbour_count(grid.geometry().dimension);
   for_each(grid.patches().size(), [&](std::size_t p) {
@@ -258,9 +266,8 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
   Delivered out;
   std::vector<Arrival> arrivals;
   Places arriving, missing;
-  if (std::any_of(grid.patches().begin(), grid.patches().end(), [](const Patch& p) {
-        return (p.outbox.used & Outbox::kOtherLevel) != 0;
-      })) {
+  if (std::any_of(grid.patches().begin(), grid.patches().end(),
+                  [](const Patch& p) { return (p.outbox.used & Outbox::kOtherLevel) != 0; })) {
     arrivals = find_arrivals(grid, boundary, bodies, sizes, ranks, out);
     arriving = places_of(grid, arrivals, ranks);
     if (ranks != nullptr) route(arrivals, *ranks);
@@ -273,10 +280,10 @@ Delivered deliver(BlockGrid& grid, const BoundarySet& boundary,
   for (const auto& place : arriving)
     if (grid.find_patch(place.first, place.second) < 0) missing.insert(place);
   if (!missing.empty()) make_patches(grid, bodies, arriving, ahead, ranks, missing);
-  const auto& all = grid.patches();
-  if (arriving.empty() && std::all_of(all.begin(), all.end(), [](const Patch& p) {
-        return p.steady && p.outbox.used == 0;
-      })) {
+  const auto& all = grid.patches();  // what all ranks know of them decides
+  if (arriving.empty() &&
+      std::all_of(all.begin(), all.end(), [](const Patch& p) { return p.outbox.used == 0; })) {
+    pad_changed(grid, bodies);
     out.changed = drop_idle(grid) || !missing.empty();
     return out;
   }

@@ -114,7 +114,8 @@ std::vector<Interior::Traveller> Interior::travellers_of(const Patch& patch) con
     for (std::size_t k = 0; k < records->size(); k += width) {
       const double *point = records->data() + k, *position = point + c.position / kLanes;
       const BlockKey key = grid_.levels().block_at(position);
-      out.push_back({key, cell_in_block(grid_.geometry(key.level), position), point[c.mass / kLanes]});
+      out.push_back(
+          {key, cell_in_block(grid_.geometry(key.level), position), point[c.mass / kLanes]});
     }
   return out;
 }

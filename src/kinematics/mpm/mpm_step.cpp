@@ -255,9 +255,8 @@ void MpmStep::particles_to_grid(const Kernels& kernels, const std::vector<BodyKe
     scatter(0, stale_.size());
     throw_faults();
   } else {  // what others wait for first; of faults all hear in momentum()
-    const auto inner = std::stable_partition(stale_.begin(), stale_.end(), [this](std::size_t p) {
-      return ranks_->goes_out(p);
-    });
+    const auto inner = std::stable_partition(stale_.begin(), stale_.end(),
+                                             [this](std::size_t p) { return ranks_->goes_out(p); });
     const auto outer = static_cast<std::size_t>(inner - stale_.begin());
     scatter(0, outer);
     ranks_->send_tiles(grid_);

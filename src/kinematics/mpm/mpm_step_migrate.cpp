@@ -102,7 +102,6 @@ void MpmStep::split_stretched() {
     const auto body = static_cast<std::size_t>(patch.body);
     PointSize size = sizes_[body];
     sizes_[body].next_id += halved[p].points;
-    if (halved[p].points > 0) patch.steady = false;
     if (found[p].empty()) continue;
     halved[p].heat =
         split_stretched_points(patch, grid_.levels(), bodies_[body].columns, size, found[p]);
@@ -118,6 +117,7 @@ void MpmStep::split_stretched() {
   }
   if (!(all > 0)) return;
   audit_.split_points += all;
+  if (ranks_ != nullptr) ranks_->share_counts(grid_);
   const Delivered delivered = deliver(grid_, boundary_, bodies_, sizes_, 0, ranks_);
   book_delivered(delivered);
   if (delivered.changed)

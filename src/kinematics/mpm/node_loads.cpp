@@ -49,8 +49,7 @@ bool NodeLoads::marked(const Patch& patch) const {
 }
 
 void NodeLoads::collect(const Kernels& kernels, std::vector<SweepSettings> by_level,
-                        const std::function<SweepScratch()>& scratch,
-                        const Distribution* ranks) {
+                        const std::function<SweepScratch()>& scratch, const Distribution* ranks) {
   for (std::size_t k = 0; k < now_.size(); ++k)
     for (std::size_t a = 0; a < 3; ++a)
       now_[k][a] = options_.faces[k].value[a] ? options_.faces[k].value[a](time_) : 0;

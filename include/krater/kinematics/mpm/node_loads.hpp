@@ -26,8 +26,8 @@
 #include <functional>
 
 #include "krater/contact/boundary.hpp"
-#include "krater/grid/overlaps.hpp"
 #include "krater/distribute/distribution.hpp"
+#include "krater/grid/overlaps.hpp"
 #include "krater/kinematics/load_options.hpp"
 #include "krater/kinematics/mpm/kernels.hpp"
 
