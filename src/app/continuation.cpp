@@ -2,6 +2,7 @@
 #include "app/continuation.hpp"
 
 #include <filesystem>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,13 @@ std::string command(const RunOptions& options, const std::string& folder) {
   return text + " -o " + quoted(folder);
 }
 
+void add_command(Json& machine, const RunOptions& options, const std::string& folder) {
+  machine["command"] = Json::of(command(options, folder));
+  machine["set"] = Json::array();
+  for (const std::string& setting : options.overrides)
+    machine["set"].items.push_back(Json::of(setting));
+}
+
 std::string continuation(const RunOptions& options, const std::string& folder) {
   return command(options, folder) + " --restart " + quoted(folder + "/checkpoint.h5");
 }
@@ -52,6 +60,16 @@ std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint,
                    ": it belongs to another scene; restart with the scene and the --set options it "
                    "was written with (title, time, output, measures, references may change):" +
                    list);
+}
+
+void restore(Simulation& sim, const Checkpoint& checkpoint, const std::string& file) {
+  try {
+    sim.restore(checkpoint);
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  } catch (const std::out_of_range&) {
+    throw InputError(file + ": damaged, or written by another version of krater");
+  }
 }
 
 std::string default_output(const std::string& scene) {

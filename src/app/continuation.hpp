@@ -9,11 +9,14 @@
 #include "krater/output/results.hpp"
 #include "krater/scene/compare.hpp"
 #include "krater/scene/scene.hpp"
+#include "krater/simulation/simulation.hpp"
 
 namespace krater {
 
 std::string quoted(const std::string& word);
 std::string command(const RunOptions& options, const std::string& folder);
+/// The command and what it set, as summary.json tells them.
+void add_command(Json& machine, const RunOptions& options, const std::string& folder);
 /// The command that continues a run from its checkpoint.
 std::string continuation(const RunOptions& options, const std::string& folder);
 
@@ -23,6 +26,9 @@ std::string continuation(const RunOptions& options, const std::string& folder);
 /// checkpoint.
 std::vector<SceneDifference> require_same_scene(const Checkpoint& checkpoint,
                                                 const std::string& file, const Scene& scene);
+
+/// Throws InputError, which names the file.
+void restore(Simulation& sim, const Checkpoint& checkpoint, const std::string& file);
 
 /// Where results go that nobody gave a place.
 std::string default_output(const std::string& scene);

@@ -53,8 +53,7 @@ class Runner {
  private:
   /// What looks at the points at the start needs all of them here.
   static const Simulation& with_points(Simulation& sim) {
-    const Scene& scene = sim.scene();
-    if (looks_at_points(scene) || !scene.outcomes.empty() || !scene.gauges.empty()) sim.assemble();
+    if (looks_at_points(sim.scene()) || looks_on_its_own(sim.scene())) sim.assemble();
     return sim;
   }
   void begin();
@@ -132,13 +131,7 @@ void Runner::resume() {
   const Checkpoint checkpoint = read_checkpoint(options_.restart);
   const std::vector<SceneDifference> differences =
       require_same_scene(checkpoint, options_.restart, scene_);
-  try {
-    sim_.restore(checkpoint);
-  } catch (const InputError& e) {
-    throw InputError(options_.restart + ": " + e.what());
-  } catch (const std::out_of_range&) {
-    throw InputError(options_.restart + ": damaged, or written by another version of krater");
-  }
+  restore(sim_, checkpoint, options_.restart);
   measurements_.restore(checkpoint, sim_.scene(), changed_measures(differences));
   outcomes_.restore(checkpoint);
   gauges_.restore(checkpoint);
@@ -323,7 +316,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   j["time"] = Json::of(sim_.time());
   j["points"] = Json::of(static_cast<std::int64_t>(sim_.point_count()));
   j["steps"] = Json::of(sim_.steps());
-  if (looks_at_points(scene_) || !scene_.outcomes.empty()) sim_.assemble();
+  with_points(sim_);
   sim_.look_at_elements();
   sim_.look_for_torn_points();
   measurements_.summarize(sim_, j);
@@ -345,10 +338,7 @@ Json Runner::summary(const std::string& status, double seconds) {
   Json& machine = j["machine"] = machine_json(sim_, seconds, point_steps());
   for (std::size_t i = 0; i < outside_names.size(); ++i)
     machine["seconds_outside_steps"][outside_names[i]] = Json::of(watch_.seconds(i));
-  machine["command"] = Json::of(command(options_, results_.path()));
-  machine["set"] = Json::array();
-  for (const std::string& setting : options_.overrides)
-    machine["set"].items.push_back(Json::of(setting));
+  add_command(machine, options_, results_.path());
   j["program"] = program_json();
   return j;
 }

@@ -226,8 +226,8 @@ void BlockGrid::link_patches() {
   if (owner_) count_masters();
 }
 
-/// What no tile reaches follows from tied nodes alone, and is counted where the first block of these
-/// is.
+/// What no tile reaches follows from tied nodes alone, and is counted where the first block of
+/// these is.
 void BlockGrid::count_masters() {
   std::vector<bool> known(node_blocks_.size());
   for (const NodeBlock& block : node_blocks_)

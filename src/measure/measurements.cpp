@@ -247,6 +247,10 @@ bool looks_at_points(const Scene& scene) {
          });
 }
 
+bool looks_on_its_own(const Scene& scene) {
+  return !scene.outcomes.empty() || !scene.gauges.empty();
+}
+
 bool draws_all_points(const Scene& scene) {
   const std::vector<std::string>& fields = scene.output.fields;
   return scene.method.numerical_fracture != NumericalFracture::ignore ||

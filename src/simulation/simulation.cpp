@@ -187,41 +187,6 @@ void Simulation::place_rigid_bodies() {
   rigid_.write_velocities(grid_, columns_of(kernel_data_));
 }
 
-void Simulation::choose_first_step() {
-  struct Fastest {
-    double speed = 0, id = 0;
-  };
-  std::vector<Fastest> by_patch(grid_.patches().size());
-  for (std::size_t n = 0; n < by_patch.size(); ++n) {
-    const Patch& p = grid_.patches()[n];
-    const PointColumns& c = kernel_data_[static_cast<std::size_t>(p.body)].columns;
-    for (int i = 0; i < p.points.count(); ++i)
-      for (int a = 0; a < geometry_.dimension; ++a)
-        if (const double speed = std::abs(p.points.at(c.velocity + kLanes * a, i));
-            speed > by_patch[n].speed)
-          by_patch[n] = {speed, p.points.at(0, i)};
-  }
-  if (ranks_) ranks_->share(grid_, by_patch);
-  double fastest = 0, signal = 0, inv_h = 0;
-  for (std::size_t n = 0; n < by_patch.size(); ++n) {
-    const Patch& p = grid_.patches()[n];
-    inv_h = std::max(inv_h, grid_.geometry(p.key.level).inv_h);
-    const Body& body = *bodies_[static_cast<std::size_t>(p.body)];
-    signal = std::max(signal, body.signal_speed());
-    if (by_patch[n].speed <= fastest) continue;
-    fastest = by_patch[n].speed;
-    limit_.body = p.body;
-    limit_.id = by_patch[n].id;
-  }
-  step_->set_reference_speed(fastest);
-  // The closing speed of two bodies is at most twice the greatest speed.
-  limit_.rate = std::max((2 * fastest + signal) * inv_h, detonation_.rate(time()));
-  for (const Kinematics* k : movers_)
-    if (k != step_.get() && k->limit().rate > limit_.rate) limit_ = k->limit();
-  require_steps(scene_.time, clock_.stable_step(limit_.rate));
-  clock_.start(limit_.rate);
-}
-
 void Simulation::find_movers() {
   if (mesh_) movers_.push_back(mesh_.get());
   if (sph_) movers_.push_back(sph_.get());

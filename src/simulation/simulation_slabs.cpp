@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What several ranks hold, written by the first of them without holding it: columns of a checkpoint,
-// slabs of a frame.
+// What several ranks hold, written by the first of them without holding it: columns of a
+// checkpoint, slabs of a frame.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

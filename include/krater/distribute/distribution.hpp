@@ -6,9 +6,10 @@
 /// Every rank knows of all patches: key, body, owner, how many points, and what their last sweep
 /// found (PatchResult); so what is summed or decided over patches is so on every rank as on one.
 /// The points of a patch are on its owner alone. A rank also holds, without points, the patches up
-/// to `width` blocks around its own (grid/neighbourhood.hpp): their tiles come from their owners once a step, and the nodes
-/// around its own points are summed, moved, brought into contact and held by walls here, from all
-/// tiles that reach them in the order of their blocks, as one rank does it. Nothing is sent back.
+/// to `width` blocks around its own (grid/neighbourhood.hpp): their tiles come from their owners
+/// once a step, and the nodes around its own points are summed, moved, brought into contact and
+/// held by walls here, from all tiles that reach them in the order of their blocks, as one rank
+/// does it. Nothing is sent back.
 ///
 /// How far that reaches: a point reads the nodes of its block and the one above it, [0, 1]; these
 /// are whole with the tiles of [-1, 1]. Each of the following reads nodes up to a block further on

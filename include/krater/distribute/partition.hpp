@@ -3,8 +3,8 @@
 /// \file distribute/partition.hpp
 /// Which rank has a block. Space is cut by recursive coordinate bisection of the weighted centres
 /// of blocks (Zoltan's RCB, Boman et al., Scientific Programming 20, 2012). Every rank knows all
-/// weights and makes the same cuts for itself, so that no message is needed, and a block which comes
-/// later has an owner without a question asked. A cut moves little when weights do.
+/// weights and makes the same cuts for itself, so that no message is needed, and a block which
+/// comes later has an owner without a question asked. A cut moves little when weights do.
 #include <memory>
 #include <vector>
 

@@ -3,10 +3,10 @@
 /// \file grid/neighbourhood.hpp
 /// The blocks near some blocks, on whatever level. Blocks A and B of levels a and b are near when
 ///   max |A_u - B_u| <= width,   u = max(0, min(a, b) - 1),
-/// where A_u is the block of level u that A lies in: on one level no more than `width` blocks apart,
-/// among finer cells so many of the level above the coarser of the two, for nodes at the edge of a
-/// level follow from those of the level above, and these from all that follow from them. It is the
-/// same for A and B as for B and A.
+/// where A_u is the block of level u that A lies in: on one level no more than `width` blocks
+/// apart, among finer cells so many of the level above the coarser of the two, for nodes at the
+/// edge of a level follow from those of the level above, and these from all that follow from them.
+/// It is the same for A and B as for B and A.
 #include <vector>
 
 #include "krater/grid/levels.hpp"

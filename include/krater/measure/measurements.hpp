@@ -65,6 +65,8 @@ class Selections {
 /// A row of its history, or its summary, reads single points: its measures do, but for those of
 /// impulses, or what looks for torn points.
 bool looks_at_points(const Scene& scene);
+/// Gauges and outcomes do so at times of their own.
+bool looks_on_its_own(const Scene& scene);
 /// A frame of it shows what depends on other points: fragments, torn points.
 bool draws_all_points(const Scene& scene);
 
