@@ -234,7 +234,7 @@ TEST_SUITE("unit") {
     REQUIRE(block.patch.outbox.keys.size() == 1);
     CHECK(block.patch.outbox.keys[0].i[0] == block.patch.key.i[0] + 1);
     CHECK(block.patch.outbox.other_level.size() == static_cast<std::size_t>(block.c.stride / 8));
-    CHECK(block.patch.outbox.used == 0);
+    CHECK(block.patch.outbox.used == Outbox::kOtherLevel);
   }
 
   TEST_CASE("stretch: parts for finer cells have a quarter of the tensor") {
