@@ -150,8 +150,9 @@ def bits(study, runs):
     count = len(SCENES) * len(RANKS)
     study.add("## The bits of one rank",
               f"Shipped scenes, shortened; frames, history and summary (machine apart) beside those of one process: "
-              f"**{count - different} of {count}** identical in every bit. Scenes of finer cells, elements, particles, rigid "
-              "bodies, fluids on the grid and loads on faces are refused by name.")
+              f"**{count - different} of {count}** identical in every bit. Among them are finer cells that points come into, "
+              "rigid bodies, fluids whose pressure the grid integrates, loads on faces, detonation, concrete, filtered transfer and a "
+              "reference configuration that stays. Elements, particles and contact on a fixed reference are refused by name.")
     study.add_table(["scene", "points", "steps", *(f"{r} ranks x {t}" for r, t in RANKS)], rows)
 
 
