@@ -8,14 +8,23 @@
 
 namespace krater {
 
+// Both sides of an axis give first and clear then: where they are one cell apart, the inner node of
+// one plane lies on the other.
 void BoundarySet::fold(int level) {
-  for (Plane& plane : planes_) {
-    if (plane.geometry.level != level || !plane.condition->folds()) continue;
-    for (Column& c : plane.columns) fold_column(plane, c);
+  const auto for_columns = [&](int axis, const auto& work) {
+    for (Plane& plane : planes_) {
+      if (plane.axis != axis || plane.geometry.level != level || !plane.condition->folds())
+        continue;
+      for (Column& c : plane.columns) work(plane, c);
+    }
+  };
+  for (int axis = 0; axis < geometry_.dimension; ++axis) {
+    for_columns(axis, [](const Plane& plane, Column& c) { fold_ghost(plane, c); });
+    for_columns(axis, [](const Plane& plane, Column& c) { clear_plane(plane, c); });
   }
 }
 
-void BoundarySet::fold_column(Plane& plane, Column& c) const {
+void BoundarySet::fold_ghost(const Plane& plane, Column& c) {
   c.folded.ghost_mass = c.ghost[summed::mass];
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<unsigned>(a);
@@ -28,15 +37,20 @@ void BoundarySet::fold_column(Plane& plane, Column& c) const {
     }
     p += sign * p_g;
     c.inner[summed::force + a] += sign * c.ghost[summed::force + a];
-    if (!odd || c.plane == nullptr) continue;
-    double &p_0 = c.plane[summed::momentum + a], &f_0 = c.plane[summed::force + a];
-    c.folded.plane_momentum[k] = p_0;
-    c.folded.plane_force[k] = f_0;
-    p_0 = f_0 = 0;
   }
   c.inner[summed::mass] += c.ghost[summed::mass];
   c.inner[moved::volume] += c.ghost[moved::volume];
   std::fill(c.ghost, c.ghost + kNodeDoubles, 0.0);
+}
+
+void BoundarySet::clear_plane(const Plane& plane, Column& c) {
+  for (int a = 0; a < 3 && c.plane != nullptr; ++a) {
+    if (!plane.odd(a)) continue;
+    double &p_0 = c.plane[summed::momentum + a], &f_0 = c.plane[summed::force + a];
+    c.folded.plane_momentum[static_cast<unsigned>(a)] = p_0;
+    c.folded.plane_force[static_cast<unsigned>(a)] = f_0;
+    p_0 = f_0 = 0;
+  }
 }
 
 BoundaryWork BoundarySet::folded(double dt, double alpha) const {

@@ -17,10 +17,10 @@ using namespace krater::test;
 constexpr double kDensity = 7850, kBulk = 163.5e9, kShear = 80e9;
 const double kWaveSpeed = std::sqrt((kBulk + 4.0 / 3.0 * kShear) / kDensity);
 
-/// A bar of 1 m in uniaxial strain; `sides` and `rest`: of z, and further blocks.
+/// A bar of 1 m in uniaxial strain, some cells wide; `sides` and `rest`: of z, and further blocks.
 std::string bar(const std::string& frame, int cells, const std::string& sides,
-                const std::string& rest, const std::string& velocity = "0") {
-  const double h = 1.0 / cells, w = 2 * h;
+                const std::string& rest, const std::string& velocity = "0", int width = 2) {
+  const double h = 1.0 / cells, w = width * h;
   std::ostringstream yaml;
   yaml.precision(17);
   const bool space = frame == "3d", round = frame == "axisymmetric";
@@ -101,6 +101,25 @@ TEST_CASE(
   for (const char* frame : {"plane_strain", "axisymmetric", "3d"}) {
     CAPTURE(frame);
     check_bar(frame, "", kOnFace);
+  }
+}
+
+TEST_CASE("loads: planes of symmetry one cell apart hold a bar as those two apart do") {
+  for (const char* frame : {"plane_strain", "3d"}) {
+    CAPTURE(frame);
+    Mean behind[2];
+    for (const int width : {1, 2}) {
+      Run run = start_text(bar(frame, 40, "", kOnFace, "0", width));
+      run_to(run, 0.6 / kWaveSpeed);
+      behind[width - 1] = mean(run, 0.55, 0.9);
+      check_account(run);
+      double across = 0;
+      for (const double v : column(run, field::Velocity::info, 0))
+        across = std::max(across, std::abs(v));
+      CHECK(across < 1e-9 * kParticle);
+    }
+    CHECK(behind[0].velocity == doctest::Approx(behind[1].velocity).epsilon(1e-9));
+    CHECK(behind[0].stress == doctest::Approx(behind[1].stress).epsilon(1e-9));
   }
 }
 

@@ -178,7 +178,8 @@ class BoundarySet {
   void list_held_nodes(const BlockGrid& grid);
   void keep_folded(const Column& column);
   static void note_fills(Plane& plane);
-  void fold_column(Plane& plane, Column& column) const;
+  static void fold_ghost(const Plane& plane, Column& column);
+  static void clear_plane(const Plane& plane, Column& column);
   bool touches(const Plane& plane, const Column& column) const;
   bool hold(const Plane& plane, const Column& column) const;
   /// What planes did, in sums that are those of all ranks in the end.
