@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "krater/core/errors.hpp"
+#include "krater/core/ranks.hpp"
 #include "krater/core/stability.hpp"
 #include "krater/kinematics/mpm/kernel_levels.hpp"
+#include "krater/measure/measurements.hpp"
 #include "krater/simulation/body.hpp"
 
 namespace krater {
@@ -122,15 +124,33 @@ Forecast forecast(const Scene& scene) {
   return out;
 }
 
+namespace {
+
+/// Of the ranks on this machine [bytes]: their shares, what each of them walks through at the
+/// start, and with the first of them all points, where measures look at them.
+double memory_here(const Scene& scene, const Forecast& f) {
+  if (ranks::alone()) return f.memory;
+  const double here = ranks::on_this_machine();
+  const bool all = ranks::first() && (looks_at_points(scene) || looks_on_its_own(scene));
+  return f.memory * (here / ranks::count() + (all ? 1 : 0)) + kSeed * f.points * here;
+}
+
+}  // namespace
+
 void require_feasible(const Scene& scene, const Forecast& f) {
   const Memory there = memory();
-  if (f.memory > there.available) {
-    const double factor = std::pow(f.memory / there.available, 1.0 / dimension(scene.frame));
+  const double needed = memory_here(scene, f);
+  if (needed > there.available) {
+    const double factor = std::pow(needed / there.available, 1.0 / dimension(scene.frame));
     throw InputError(fmt::format(
-        "{}: {} points need {} of memory, and {} are {}; use a larger grid.cell (about {:.2g} m), "
+        "{}: {} points need {} of memory{}, and {} are {}; use a larger grid.cell (about {:.2g} "
+        "m), "
         "fewer points_per_direction or smaller bodies",
-        scene.grid.where, count_text(f.points), bytes_text(f.memory), bytes_text(there.available),
-        there.limit, scene.grid.cell * std::min(factor, 1e3)));
+        scene.grid.where, count_text(f.points), bytes_text(needed),
+        ranks::alone()
+            ? ""
+            : fmt::format(" for {} of {} ranks here", ranks::on_this_machine(), ranks::count()),
+        bytes_text(there.available), there.limit, scene.grid.cell * std::min(factor, 1e3)));
   }
   if (f.steps <= kMostSteps) return;
   const std::string cause = f.cut_steps > 0.5 * f.steps ? "output.frames cuts them short: use a "

@@ -18,7 +18,7 @@ namespace krater::ranks {
 namespace {
 
 struct World {
-  int index = 0, count = 1;
+  int index = 0, count = 1, here = 1;
   bool started = false;
   int speech = -1;  ///< standard error of a rank that is silent otherwise
   MPI_Datatype sum_type = MPI_DATATYPE_NULL;
@@ -101,6 +101,10 @@ void start(int& argc, char**& argv) {
   world.started = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &world.index);
   MPI_Comm_size(MPI_COMM_WORLD, &world.count);
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &world.here);
+  MPI_Comm_free(&machine);
   MPI_Type_contiguous(sizeof(ReproducibleSum), MPI_BYTE, &world.sum_type);
   MPI_Type_commit(&world.sum_type);
   MPI_Op_create(add_sums, 1, &world.sum_op);
@@ -126,6 +130,7 @@ void part() {
   finish();
   world.index = 0;
   world.count = 1;
+  world.here = 1;
   for (const char* name : kLaunched) unsetenv(name);  // programs that this one starts are no ranks
 }
 
@@ -153,6 +158,7 @@ std::string description() {
 
 int index() { return world.index; }
 int count() { return world.count; }
+int on_this_machine() { return world.here; }
 const Traffic& traffic() { return world.traffic; }
 
 void sum(std::span<ReproducibleSum> sums) {

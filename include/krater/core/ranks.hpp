@@ -4,7 +4,8 @@
 /// The processes that compute one scene together, each a part of the blocks. The only place that
 /// calls MPI, as core/parallel.hpp is the only one that calls OpenMP; without it (the default
 /// build, or a start without a launcher) there is one rank and nothing here costs anything.
-/// All functions but index() and count() are collective: every rank calls them, in the same order.
+/// All functions but index(), count() and on_this_machine() are collective: every rank calls them,
+/// in the same order.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -37,6 +38,7 @@ std::string description();
 
 int index();  ///< 0 is the one that reads, writes and speaks
 int count();
+int on_this_machine();  ///< ranks that share its memory
 inline bool alone() { return count() == 1; }
 inline bool first() { return index() == 0; }
 
