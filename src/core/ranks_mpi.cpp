@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "krater/core/errors.hpp"
 #include "krater/core/ranks.hpp"
 
 namespace krater::ranks {
@@ -21,8 +20,7 @@ struct World {
   int index = 0, count = 1, here = 1;
   bool started = false;
   int speech = -1;  ///< standard error of a rank that is silent otherwise
-  MPI_Datatype sum_type = MPI_DATATYPE_NULL;
-  MPI_Op sum_op = MPI_OP_NULL, both_op = MPI_OP_NULL;
+  MPI_Op both_op = MPI_OP_NULL;
   std::size_t sums = 0, greatest = 0;  ///< that reduce() lays out
   Traffic traffic;
 };
@@ -46,12 +44,6 @@ class Clock {
 void sent(std::size_t bytes) {
   world.traffic.bytes += static_cast<double>(bytes);
   world.traffic.messages += 1;
-}
-
-void add_sums(void* in, void* inout, int* count, MPI_Datatype*) {
-  const auto* terms = static_cast<const ReproducibleSum*>(in);
-  auto* sums = static_cast<ReproducibleSum*>(inout);
-  for (int i = 0; i < *count; ++i) sums[i] += terms[i];
 }
 
 /// Of what reduce() lays out: sums, then numbers.
@@ -85,10 +77,10 @@ bool launched() {
                      [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-/// MPI counts in int.
+/// MPI counts in int. The others wait for what cannot be sent: none goes on.
 int as_count(std::size_t n) {
   if (n > 0x7FFFFFFF)
-    throw NumericalError("a message between two ranks is longer than 2^31 numbers: use more ranks");
+    give_up("krater: a message between two ranks is longer than 2^31 numbers: use more ranks", 3);
   return static_cast<int>(n);
 }
 
@@ -105,9 +97,6 @@ void start(int& argc, char**& argv) {
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   MPI_Comm_size(machine, &world.here);
   MPI_Comm_free(&machine);
-  MPI_Type_contiguous(sizeof(ReproducibleSum), MPI_BYTE, &world.sum_type);
-  MPI_Type_commit(&world.sum_type);
-  MPI_Op_create(add_sums, 1, &world.sum_op);
   MPI_Op_create(join, 1, &world.both_op);
   if (world.index == 0) return;
   world.speech = dup(STDERR_FILENO);
@@ -119,9 +108,7 @@ void start(int& argc, char**& argv) {
 
 void finish() {
   if (!world.started) return;
-  MPI_Op_free(&world.sum_op);
   MPI_Op_free(&world.both_op);
-  MPI_Type_free(&world.sum_type);
   MPI_Finalize();
   world.started = false;
 }
@@ -161,19 +148,10 @@ int count() { return world.count; }
 int on_this_machine() { return world.here; }
 const Traffic& traffic() { return world.traffic; }
 
-void sum(std::span<ReproducibleSum> sums) {
-  if (alone()) return;
-  const Clock clock;
-  sent(sums.size_bytes());
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), as_count(sums.size()), world.sum_type, world.sum_op,
-                MPI_COMM_WORLD);
-}
+void sum(std::span<ReproducibleSum> sums) { reduce(sums, {}); }
 
 double max(double x) {
-  if (alone()) return x;
-  const Clock clock;
-  sent(sizeof(x));
-  MPI_Allreduce(MPI_IN_PLACE, &x, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  reduce({}, {&x, 1});
   return x;
 }
 

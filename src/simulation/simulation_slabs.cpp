@@ -26,18 +26,14 @@ void Simulation::copy_column(int body, int slot, double* to) const {
 
 void Simulation::column_together(int body, int slot, double* to) const {
   const std::vector<int> sets = sets_of(body);
-  std::vector<ranks::Message> out;
-  std::vector<int> from;
-  if (ranks::first()) {
-    for (int r = 1; r < ranks::count(); ++r) from.push_back(r);
-  } else {
-    out.push_back({0, {}});
+  const std::vector<ranks::Message> in = to_first([&] {
+    std::vector<double> own;
     for (const int s : sets) {
       const PointStore& points = *set(s).points;
-      for (int i = 0; i < points.count(); ++i) out[0].data.push_back(points.at(kLanes * slot, i));
+      for (int i = 0; i < points.count(); ++i) own.push_back(points.at(kLanes * slot, i));
     }
-  }
-  const std::vector<ranks::Message> in = ranks::exchange(out, from);
+    return own;
+  });
   if (!ranks::first()) return;
   std::vector<const double*> at(static_cast<std::size_t>(ranks::count()));
   for (const ranks::Message& m : in) at[static_cast<std::size_t>(m.rank)] = m.data.data();
@@ -88,13 +84,7 @@ std::vector<double> Simulation::records_of_slab(std::size_t first, std::size_t e
 }
 
 void Simulation::slab_together(std::size_t first, std::size_t end) const {
-  std::vector<ranks::Message> out;
-  std::vector<int> from;
-  if (ranks::first())
-    for (int r = 1; r < ranks::count(); ++r) from.push_back(r);
-  else
-    out.push_back({0, records_of_slab(first, end)});
-  std::vector<ranks::Message> in = ranks::exchange(out, from);
+  std::vector<ranks::Message> in = to_first([&] { return records_of_slab(first, end); });
   if (!ranks::first()) return;
   in.push_back({0, records_of_slab(first, end)});
   const Body& body = *bodies_[static_cast<std::size_t>(slabs_->body)];

@@ -278,15 +278,17 @@ void MpmStep::grid_to_particles(GatherPart part, double dt) {
     Patch& patch = grid_.patches()[p];
     if (!patch.here) return;
     if (patch.tile.state == Tile::State::ahead) patch.tile.state = Tile::State::stale;
-    if (rigid_.any() && rigid_.find(patch.body)) {
-      if (moves) note_cost(patch, [&] { move_rigid(p, scratch()); });
-      return;
-    }
-    const AfterGather then{moves, ahead};
+    const auto sweep = [&] {
+      const bool rigid = rigid_.any() && rigid_.find(patch.body);
+      if (!rigid)
+        gather_and_collect(p, part, all[level_of(patch)], {moves, ahead});
+      else if (moves)
+        move_rigid(p, scratch());
+    };
     if (ranks_ != nullptr)
-      note_cost(patch, [&] { gather_and_collect(p, part, all[level_of(patch)], then); });
+      note_cost(patch, sweep);
     else
-      gather_and_collect(p, part, all[level_of(patch)], then);
+      sweep();
   });
   if (ranks_ != nullptr) ranks_->share_results(grid_, removed_);
   lap(Phase::gather);
