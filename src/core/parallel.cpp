@@ -4,9 +4,12 @@
 #include <omp.h>
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <vector>
+
+#include "krater/core/parallel_account.hpp"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -17,6 +20,7 @@ namespace krater {
 namespace {
 
 int thread_count = 1;
+ParallelAccount* kept_account = nullptr;
 
 /// The items that one thread begins with: the same in every step, so that what belongs to them
 /// stays in its cache. Who has done his own takes from the others'.
@@ -55,8 +59,10 @@ void flush_denormals() {
 
 namespace detail {
 
-void for_each(std::size_t count, std::size_t few, void (*call)(const void*, std::size_t),
-              const void* context) {
+namespace {
+
+void share(std::size_t count, std::size_t few, void (*call)(const void*, std::size_t),
+           const void* context) {
   const auto n = static_cast<long>(count);
   if (thread_count == 1 || count <= few) {  // OpenMP asks for a lock per item even then
     flush_denormals();
@@ -93,5 +99,24 @@ void for_each(std::size_t count, std::size_t few, void (*call)(const void*, std:
   if (error) std::rethrow_exception(error);
 }
 
+}  // namespace
+
+void for_each(std::size_t count, std::size_t few, void (*call)(const void*, std::size_t),
+              const void* context) {
+  if (kept_account == nullptr) {
+    share(count, few, call, context);
+    return;
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  share(count, few, call, context);
+  ParallelAccount::Region& region = kept_account->by_items[count <= few ? 1 : count];
+  region.calls += 1;
+  region.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 }  // namespace detail
+
+void keep_account(ParallelAccount* account) { kept_account = account; }
+
 }  // namespace krater

@@ -17,6 +17,8 @@
 
 #include "krater/app/machine.hpp"
 #include "krater/core/parallel.hpp"
+#include "krater/core/parallel_account.hpp"
+#include "krater/core/waiting.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace {
@@ -198,10 +200,29 @@ void print_state(const Simulation& sim) {
       static_cast<unsigned long long>(state_hash(sim)));
 }
 
+/// What of the steps several threads can share: calls of for_each by their number of items, per
+/// step, and how long a call without work takes with the threads that there are [us].
+void print_sharing(const ParallelAccount& account, double steps) {
+  constexpr int tries = 200;
+  const auto start = std::chrono::steady_clock::now();
+  for (int n = 0; n < tries; ++n) for_each(1000, [](std::size_t) {});
+  const double empty =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / tries;
+  std::printf(",\n \"empty_us\": %.3f, \"shared\": [", 1e6 * empty);
+  const char* comma = "";
+  for (const auto& [items, region] : account.by_items) {
+    std::printf("%s{\"items\": %zu, \"calls\": %.3f, \"us\": %.3f}", comma, items,
+                static_cast<double>(region.calls) / steps, 1e6 * region.seconds / steps);
+    comma = ", ";
+  }
+  std::printf("]}\n");
+}
+
 }  // namespace
 
 /// krater_bench_steps SCENE ...: JSON on stdout.
 int main(int argc, char** argv) try {
+  wait_briefly(argv);
   const Options options = read_options(argc, argv);
   set_threads(options.threads);
   flush_denormals();
@@ -209,7 +230,10 @@ int main(int argc, char** argv) try {
   Simulation sim{scene};
   const double until = scene.time.end;
   for (int n = 0; n < options.warm && !sim.done(); ++n) sim.step(until);
+  ParallelAccount account;
+  keep_account(&account);
   const Samples samples = time_steps(sim, options.steps, until);
+  keep_account(nullptr);
   if (samples.step.empty()) {
     std::fprintf(stderr, "krater_bench_steps: the scene ends before the first timed step\n");
     return 1;
@@ -225,7 +249,8 @@ int main(int argc, char** argv) try {
   std::printf(", ");
   print_times("cpu", samples.cpu, points);
   const Flow flow = options.flow && !sim.done() ? watch_flow(sim, until) : Flow{};
-  std::printf("},\n \"change_cell\": %.4f, \"change_block\": %.4f}\n", flow.cells, flow.blocks);
+  std::printf("},\n \"change_cell\": %.4f, \"change_block\": %.4f", flow.cells, flow.blocks);
+  print_sharing(account, static_cast<double>(samples.step.size()));
   return 0;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "krater_bench_steps: %s\n", e.what());
