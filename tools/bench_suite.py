@@ -15,6 +15,7 @@ import subprocess
 import tempfile
 
 import bench_scenes as scenes
+import bench_users as users
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROBE = pathlib.Path(os.environ.get("KRATER_PROBE", ROOT.parent / "shared" / "probe" / "step3d.cpp"))
@@ -82,9 +83,7 @@ class Bench:
                 str(threads)] + ([] if flow else ["--no-flow"])
 
     def steps(self, text, steps=30, warm=10, threads=1, flow=False):
-        environment = dict(os.environ, OMP_WAIT_POLICY="passive")
-        done = subprocess.run(self.command(text, steps, warm, threads, flow), capture_output=True, text=True, check=False,
-                              env=environment)
+        done = subprocess.run(self.command(text, steps, warm, threads, flow), capture_output=True, text=True, check=False)
         if done.returncode:
             raise SystemExit(f"tools/bench: {done.stderr.strip()}")
         return json.loads(done.stdout)
@@ -270,30 +269,6 @@ def dormant(bench):
     return {"rows": rows, "ratio": rows["awake"]["ns"]["step"] / rows["dormant"]["ns"]["step"], "same_bits": same}
 
 
-PEERS = {  # the same rod, wall seconds on one core, measured for this project in one run (issue 4)
-    "MPM3D-F90, linear": 69, "MPM3D-F90, quadratic B-splines": 175, "Karamelo": 258, "NairnMPM": 1022}
-
-
-def wait(bench):
-    """Whole runs as a user starts them, output and measures included [s]."""
-    cases = {"axisymmetric, h/4": ["grid.cell=0.09525 mm"], "3d, h": ["frame=3d"]}
-    rows = {}
-    for n in ([1, 2] if (os.cpu_count() or 1) > 1 else [1]):
-        for name, settings in cases.items():
-            out = bench.folder / f"wait_{n}_{name[:2]}"
-            command = [bench.krater, "run", ROOT / "inputs" / "taylor_copper.yaml", "-o", out, "-j", str(n), "--quiet"]
-            for setting in settings:
-                command += ["--set", setting]
-            subprocess.run(command, check=True, env=dict(os.environ, OMP_WAIT_POLICY="passive"), capture_output=True)
-            s = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-            work = s["points"] * s["steps"]
-            rows[f"{name}, {n} thread{'s' if n > 1 else ''}"] = {
-                "points": s["points"], "steps": s["steps"], "wall_seconds": s["machine"]["wall_seconds"],
-                "ns": {k: 1e9 * v / work for k, v in s["machine"]["seconds"].items()},
-                "bytes_per_point": s["machine"]["bytes_per_point"]}
-            shutil.rmtree(out)
-    return {"rows": rows, "peers_seconds_3d": PEERS}
-
-
 SUITE = {"scenes": scene_suite, "memory": memory, "effects": effects, "alone": alone, "leavers": leavers, "dormant": dormant,
-         "wait": wait, "instructions": instructions}
+         "wait": users.wait, "small": users.small, "cores": users.cores, "peers": users.peers,
+         "inputs": users.inputs, "instructions": instructions}

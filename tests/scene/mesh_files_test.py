@@ -157,6 +157,9 @@ def files(folder):
     out = krater("check", scene, "--set", "bodies.cube.shape={move: {by: [0, 0, -0.5 mm], shape: {mesh: {file: "
                  "cube.inp, unit: mm}}}}")
     check(out.returncode == 2 and "cannot be cut" in out.text, "outside the domain", out.text[-300:])
+    edge = krater("check", scene, "--set", "bodies.cube.kinematics={lagrangian_mesh: {element: 0.2 mm}}")
+    check(edge.returncode == 2 and "element: the elements are those of the file" in edge.text, "an edge of its own is refused",
+          edge.text[-300:])
     again = krater("check", "cube/resolved.yaml")
     check(again.returncode == 0, "resolved.yaml finds the file", again.text[-300:])
     mesh.write_text(CUBE.replace("8, 1, 1, 1\n", "8, 1, 1, 1.1\n"), encoding="utf-8")

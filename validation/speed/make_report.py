@@ -13,12 +13,14 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools"), str(pathlib.Path(__file__).resolve().parent)]
+import users  # noqa: E402
 from bench_suite import STAGES, SUITE  # noqa: E402
 from validate_runs import Study  # noqa: E402
 
-ESTIMATED_SECONDS = 1700  # on two quiet cores
-SECONDS = {"scenes": 240, "memory": 200, "effects": 300, "alone": 300, "leavers": 60, "dormant": 30, "wait": 400, "instructions": 120}
+ESTIMATED_SECONDS = 1800  # on two quiet cores
+SECONDS = {"scenes": 240, "memory": 200, "effects": 300, "alone": 300, "leavers": 60, "dormant": 30, "wait": 120,
+           "small": 40, "cores": 40, "peers": 120, "inputs": 240, "instructions": 120}
 RESULTS = pathlib.Path(os.environ.get("KRATER_BUILD_DIR", ROOT / "build")) / "bench" / "bench.json"
 
 
@@ -35,11 +37,11 @@ def measure(study):
                               check=True).stdout.strip()
 
     step = last_change([f"{top}/{part}" for top in ("src", "include/krater") for part in ("core", "grid", "materials", "points",
-                                                                                         "step")])
+                                                                                         "kinematics", "contact")])
     every = last_change(["src", "include"])
     for name in SUITE:
         part = read().get(name)
-        revision = every if name == "wait" else step  # the others time steps alone
+        revision = every if name in ("wait", "peers", "inputs") else step  # the others time steps alone
         if part and subprocess.run(["git", "-C", ROOT, "merge-base", "--is-ancestor", revision,
                                     part["machine"]["revision"].replace("-dirty", "")], check=False,
                                    capture_output=True).returncode == 0:
@@ -152,21 +154,6 @@ def add_rest(study, parts):
                   f"blocks make it {verdict(part['ratio'], 3, True)} times faster (demanded 3), the bits are "
                   f"{'the same' if part['same_bits'] else '**different**'}.", calibration(part))
         study.add_table(TITLES, stage_rows(part))
-    if "wait" in parts:
-        part = parts["wait"]
-        study.add("## A user's wait", "`krater run inputs/taylor_copper.yaml`, output and measures included.",
-                  calibration(part))
-        study.add_table(["run", "points", "steps", "wall time s", "of it steps s", "ns per point-step of the steps"],
-                        [[name, r["points"], r["steps"], f"{r['wall_seconds']:.1f}",
-                          f"{1e-9 * sum(r['ns'].values()) * r['points'] * r['steps']:.1f}", f"{sum(r['ns'].values()):.1f}"]
-                         for name, r in part["rows"].items()])
-        whole = sum(part["rows"]["3d, h, 1 thread"]["ns"].values())
-        if "scenes" in parts and "1" in parts["scenes"]["probe"]:
-            study.add(f"Averaged over the whole 3d run a point-step costs {whole:.1f} ns by wall clock: more than in its first steps, for more "
-                      f"points yield. That is {verdict(parts['scenes']['probe']['1']['step'] / whole, 0.6, True)} of the probe's "
-                      "rate (demanded 0.60, aim 0.75), whose state does not change.")
-        study.add("Others, 3d at h, one core, measured for this project on one machine in one run (not in this one): " +
-                  ", ".join(f"{name} {s} s" for name, s in part["peers_seconds_3d"].items()) + ".")
     if "instructions" in parts:
         part = parts["instructions"]
         study.add("## Instructions", "Per point-step, AVX2 level, callgrind.", calibration(part))
@@ -180,11 +167,16 @@ def main():
     study.add("Made by `tools/bench`, which times single steps: medians over steps and over interleaved runs. Figures of a "
               "loaded machine move together; compare those of one section, and ratios. The triad is STREAM's, 24 bytes "
               "per element.")
+    users.add_asked(study, parts)
     for name, add in (("scenes", add_scenes), ("memory", add_memory), ("effects", add_effects),
                       ("alone", add_alone)):
         if name in parts:
             add(study, parts[name])
     add_rest(study, parts)
+    for name, add in (("wait", users.add_wait), ("small", users.add_small), ("cores", users.add_cores), ("peers", users.add_peers),
+                      ("inputs", users.add_inputs)):
+        if name in parts:
+            add(study, parts[name], calibration(parts[name]))
     with open(os.path.join(study.folder, "discussion.md"), encoding="utf-8") as file:
         study.add(file.read().strip())
     study.write("Speed")

@@ -88,6 +88,19 @@ int read_reference(Block& parent, double& strain, Reading& reading) {
   return 2;
 }
 
+namespace {
+
+/// Elements of a file have the edges they have.
+void read_edge(Block& mesh, BodyOptions& body, Reading& reading) {
+  body.mesh->element = reading.scene.grid.cell;
+  if (body.solid == nullptr || body.solid->elements() == nullptr)
+    body.mesh->element = mesh.number("element", reading.scene.grid.cell);
+  else if (const Node* edge = mesh.find("element"))
+    mesh.fail(*edge, "the elements are those of the file: leave this key out");
+}
+
+}  // namespace
+
 Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
   if (node.kind == Node::Kind::scalar) {
     if (node.text == "mpm") return string_node("mpm");
@@ -116,7 +129,7 @@ Node read_kinematics(const Node& node, BodyOptions& body, Reading& reading) {
   body.mesh = MeshOptions{};
   if (const Node* inner = block.require("lagrangian_mesh", "or sph, or kinematics: mpm")) {
     Block mesh{lagrangian_mesh_block(), inner, inner->path, *inner, reading.problems};
-    body.mesh->element = mesh.number("element", reading.scene.grid.cell);
+    read_edge(mesh, body, reading);
     read_hourglass(mesh, body.mesh->hourglass, reading);
     body.mesh->reference =
         static_cast<ElementReference>(read_reference(mesh, body.mesh->refresh_strain, reading));
