@@ -158,7 +158,8 @@ int command_line(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "compute a scene");
   add_scene_options(run_command, options);
   run_command->add_option("-o,--output", options.output, "results folder (default: SCENE_out)");
-  run_command->add_option("-j,--threads", options.threads, "threads (default: all)")
+  run_command
+      ->add_option("-j,--threads", options.threads, "threads (default: what the scene keeps busy)")
       ->check(CLI::Range(1, 4096));
   run_command->add_option("--restart", options.restart, "continue from a checkpoint.h5");
   run_command->add_flag("--quiet", options.quiet,

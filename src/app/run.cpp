@@ -18,6 +18,7 @@
 #include "krater/app/progress.hpp"
 #include "krater/app/readable.hpp"
 #include "krater/app/schedule.hpp"
+#include "krater/app/thread_fit.hpp"
 #include "krater/app/version.hpp"
 #include "krater/core/errors.hpp"
 #include "krater/core/parallel.hpp"
@@ -60,7 +61,7 @@ class Runner {
   void resume();
   std::vector<Quantity> history_columns();
   std::vector<Quantity> history_titles() const;  ///< without measuring, which measures remember
-  void write_history();
+  void write_history() { results_.write_history(history_columns()); }
   void write_due(Schedule& frames, Schedule& history);
   void write_frame(double time);
   void write_checkpoint();
@@ -156,8 +157,6 @@ std::vector<Quantity> Runner::history_titles() const {
   return row;
 }
 
-void Runner::write_history() { results_.write_history(history_columns()); }
-
 void Runner::write_frame(double time) {
   if (draws_all_points(scene_)) sim_.assemble();
   if (sim_.steps() > 0) sim_.look_for_overlap();
@@ -213,13 +212,14 @@ void Runner::write_due(Schedule& frames, Schedule& history) {
 }
 
 int Runner::go() {
+  ThreadFit fit{options_.threads};
+  fit.look(sim_);
   begin();
   watch_.lap(static_cast<std::size_t>(Outside::setup));
   listen_to_signals();
   Progress progress{sim_, options_.quiet};
-  const double end = scene_.time.end;
-  Schedule frames{scene_.output.frames, end, sim_.time()};
-  Schedule history{scene_.output.history, end, sim_.time()};
+  Schedule frames{scene_.output.frames, scene_.time.end, sim_.time()};
+  Schedule history{scene_.output.history, scene_.time.end, sim_.time()};
   double last_checkpoint = 0;
   foreseen_dt_ = sim_.expected_dt();
   try {
@@ -233,6 +233,7 @@ int Runner::go() {
         tell_always(message);
         return finish("interrupted", message, kInterrupted, progress);
       }
+      fit.look(sim_);
       sim_.step(frames.next());
       costs_.look(sim_);
       write_due(frames, history);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""On a machine whose cores others want, too, threads that wait for each other do not burn them."""
+"""On a machine whose cores others want, too, threads that wait for each other do not burn them, and a small scene takes few."""
 
 import os
 import pathlib
@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 
-from scene_support import KRATER, TAYLOR, Folder, check, finish, settings, summary
+from scene_support import KRATER, TAYLOR, Folder, check, differences, finish, settings, summary
 
 BUSY = [sys.executable, "-c", "while True: pass"]
 # Of one thread. Looking for milliseconds at the end of every loop costs ten to thirty times as much.
@@ -51,6 +51,13 @@ def main():
             for process in busy:
                 process.kill()
                 process.wait()
+        many = {**PLAIN, "OMP_NUM_THREADS": "64"}
+        for name, asked in (("fitting", ()), ("asked", ("-j", "5"))):
+            done = subprocess.run([KRATER, "run", TAYLOR, "-o", name, *asked, *settings(["time.end=1 us"])], env=many,
+                                  capture_output=True, text=True, timeout=300, check=False)
+            used = summary(name)["machine"]["threads"]
+            check(done.returncode == 0 and (used == 5 if asked else 1 < used < 15), f"{name}: threads of 64 for 15 patches", used)
+        check(not differences("fitting", "asked"), "the bits do not depend on it")
         check(int(setting_in("plain") or 0) > 0, "a limit is set where a user sets nothing")
         check(setting_in("active", OMP_WAIT_POLICY="active") is None and setting_in("own", GOMP_SPINCOUNT="77") == "77",
               "what a user sets about it stays")
