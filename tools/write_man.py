@@ -19,7 +19,7 @@ CODES = [("0", "done"), ("2", "bad input: file, line, key and remedy are named")
          ("4", "interrupted, checkpoint written"), ("5", "done with warnings under --strict")]
 ENVIRONMENT = [("KRATER_CARDS", "folders of cards, separated by colons"),
                ("KRATER_ISA", "portable, v3 or v4: the instruction set that is used (the results are the same)"),
-               ("OMP_WAIT_POLICY", "passive: threads that wait sleep, for machines that others use too")]
+               ("OMP_WAIT_POLICY", "active: threads that wait for others look on and do not sleep, for a machine of your own")]
 SEE = ["krater-plot-run DIR", "krater-plot-scene SCENE", "krater-plot-point DIR", "krater-show-summary DIR",
        "krater-three-cells SCENE", "krater-to-vtkhdf DIR"]
 
