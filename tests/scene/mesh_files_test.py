@@ -80,8 +80,8 @@ def values(name):
 def taylor(scene, half):
     """A quarter of an O-grid in space beside the half section: both miss what five elements on the radius miss.
 
-    Four across the copper bar's radius give its length to 0.4 % and its foot to 2.8 % (src/README.md): two such meshes
-    may differ by twice that.
+    Four across the copper bar's radius give its length to 0.4 % and its foot to 2.8 % (src/kinematics/README.md): two
+    such meshes may differ by twice that.
     """
     flat = run("flat", scene=half)
     full = run("full", scene=scene)

@@ -11,25 +11,18 @@
 #include "krater/kinematics/mpm/stretch.hpp"
 #include "krater/points/ledger_fields.hpp"
 
+#include "cells_support.hpp"
+
 namespace {
 
 using namespace krater;
 
 constexpr double kDensity = 3, kCell = 0.5;
 
-GridGeometry cells_of(int dimension) {
-  GridGeometry g;
-  g.dimension = dimension;
-  g.h = kCell;
-  g.inv_h = 1 / kCell;
-  g.cells = {32, 32, dimension == 3 ? 32 : 0};
-  return g;
-}
-
 /// Points of one body in the first block, with all that halves share out.
 struct Block {
   explicit Block(int dimension, bool hoop = false)
-      : dim{dimension}, levels{cells_of(dimension)}, size{kDensity, {2, 2, 2}, hoop} {
+      : dim{dimension}, levels{test::cells_of(dimension, kCell)}, size{kDensity, {2, 2, 2}, hoop} {
     Layout layout{dimension};
     constexpr const char* test = "test";
     layout.state<field::Id>(0, test);

@@ -2,8 +2,8 @@
 #pragma once
 /// \file geometry/meshes/mesh_file.hpp
 /// Files of elements: Gmsh .msh (ASCII, versions 2.2 and 4.1), Abaqus .inp, LS-DYNA .k, .key, .dyn.
-/// They are read here and not by Gmsh's library (src/README.md says why). First a file is read as
-/// it stands, then one part of it is made a mesh and examined.
+/// They are read here and not by Gmsh's library (src/kinematics/README.md says why). First a file
+/// is read as it stands, then one part of it is made a mesh and examined.
 #include <cstdint>
 #include <optional>
 #include <string>
