@@ -136,6 +136,26 @@ def resumed():
     check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
 
 
+def killed_member():
+    """A member that the system ended, for want of memory mostly, says nothing of its settings: it is tried again."""
+    write("short.yaml", convergence("[1 mm, 0.5 mm, 0.05 mm]"))
+    process = subprocess.Popen(command("study", "short.yaml", "-j", 1), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, env=environment())
+    for line in process.stderr:
+        if "[2/3]" in line:
+            break
+    end, children = time.monotonic() + 30, []
+    while not children and time.monotonic() < end:
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()
+        time.sleep(0.005)
+    os.kill(int(children[0]), signal.SIGKILL)
+    out, error = process.communicate()
+    check(process.returncode == 4 and "ended by SIGKILL" in out and "1 members are left" in error, "a killed member is left",
+          out + error)
+    done = study("short")
+    check(done.returncode == 0 and "1 of 3 members to run" in done.stderr, "and run by the same command", done.text)
+
+
 def names():
     """A name is where results lie: no two members may share one, however alike they are told."""
     long = "{lagrangian_mesh: {failure: {action: erode, when: {plastic_strain: 1.0, jacobian: 0.05}}}}"
@@ -157,6 +177,9 @@ def failing_member():
     check(done.returncode == 0 and row["status"] == "failed" and "exit code 3: energy error" in row["reason"],
           "a failure is a row", row)
     check(f"Member {row['member']} failed" in done.stdout and row["velocity"] is None, "and is told")
+    done = study("limited")
+    check("to run" not in done.stderr and f"Member {row['member']} failed" in done.stdout,
+          "what failed by itself is told again, not run again", done.stderr)
 
 
 def budget():
@@ -352,6 +375,7 @@ with Folder():
     names()
     files_of_a_study()
     resumed()
+    killed_member()
     failing_member()
     null_in_some()
     fates()

@@ -77,7 +77,7 @@ def name_of(values):
     it would be too long for a folder, it ends with a digest of them: a name is where results are kept, and two members
     with one name would be given one result."""
     keys = [path.rsplit(".", 1)[-1] for path in values]
-    words = [re.sub(r"[^A-Za-z0-9.+-]", "", text) for text in values.values()]
+    words = [re.sub(r"[^A-Za-z0-9_.+-]", "", text) for text in values.values()]
     name = ",".join(f"{key}={word}" for key, word in zip(keys, words))
     # Two values of a key that differ by a slash would not have the same dimension.
     whole = all(word == text.translate(str.maketrans("", "", " /")) for word, text in zip(words, values.values()))
@@ -130,6 +130,9 @@ class Engine:
         if status == "done":
             row.status, row.cost = "done", self.cost(row.summary, told)
             self.measured[one.name] = row.cost["core_seconds"]
+        elif told.get("status") == "killed":
+            row.status, row.summary = "interrupted", {}
+            row.reason = f"{told.get('reason')} (is memory short?); the same command tries it again"
         elif told.get("status") == "failed" or status == "failed":
             row.status, row.cost = "failed", told.get("cost", {})
             row.reason = told.get("reason") or str(row.summary.get("message", "failed"))
@@ -182,7 +185,7 @@ class Engine:
 
     def estimate(self, members):
         """(members to run, core seconds, greatest memory)."""
-        waiting = [one for one in members if not self.row(one).done]
+        waiting = [one for one in members if self.row(one).status not in ("done", "failed")]
         return (len(waiting), sum(self.seconds(one) for one in waiting),
                 max((self.forecasts.get(one.name, (0, 0))[0] for one in waiting), default=0))
 
@@ -250,6 +253,8 @@ class Engine:
             told["status"] = "interrupted"
         elif child.code:
             told["reason"] = child.reason()
+            if child.code == -signal.SIGKILL:  # nothing a run does by itself: the system's memory, or somebody
+                told["status"] = "killed"
         write_json(self.place(child.one.name, ".json"), told)
         return self.row(child.one)
 

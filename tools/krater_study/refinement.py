@@ -52,7 +52,7 @@ class Convergence:
         law = self.cost_law(done)
         table = Table("What is known of each measure", ["measure", "answer", "of it", "order", "how", "small cells"],
                       [])
-        costs = Table("Core-seconds of the cheapest cell for an uncertainty",
+        costs = Table("Core time of the cheapest cell for an uncertainty",
                       ["measure", *(f"{100 * target:g} %" for target in TARGETS)], [])
         curves = {}
         for name in self.study.measures:
@@ -130,7 +130,7 @@ class Convergence:
         good = [row for row in done if found.uncertainty + abs(row.measure(name) - found.value) <= allowed]
         if good:
             row = max(good, key=lambda row: row.cell)
-            return f"{number(row.cost['core_seconds'], 2)} ({1e3 * row.cell:.3g} mm)"
+            return f"{text_of(row.cost['core_seconds'])} ({1e3 * row.cell:.3g} mm)"
         if found.falls_as is None or law is None:
             return "not by refinement"
         cell = min(row.cell for row in done) * (allowed / found.uncertainty) ** (1 / found.falls_as)
