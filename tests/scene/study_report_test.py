@@ -2,35 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`krater study REPORT.md`: a page of several studies of a user's own scene, from a template in an empty folder."""
 
-import contextlib
-import io
 import json
 import os
 import pathlib
 import re
-import sys
-import types
 
-from scene_support import KRATER, ROOT, Folder, check, finish
+from scene_support import ROOT, Folder, check, finish
+from study_support import SCENE as PLATE
+from study_support import study_of, write
+import columns
+from members import Member, Row
+from study_file import InputError
 
-os.environ["KRATER"] = KRATER
-sys.path.insert(0, str(ROOT / "tools" / "krater_study"))
-import columns  # noqa: E402
-import command  # noqa: E402
-from members import Member, Row  # noqa: E402
-from study_file import InputError  # noqa: E402
-
-SCENE = """
-frame: plane_strain
-grid: {cell: 0.5 mm, box: {min: [0, 0], max: [1 mm, 12 mm]},
-       boundary: {z_min: symmetry, x_min: symmetry, x_max: symmetry}}
-time: {end: 1 us}
-materials: {al: {density: 2785, eos: {mie_gruneisen_shock: {c0: 5328 m/s, S1: 1.338, gamma0: 2.0}}, viscosity: {}}}
-bodies: {plate: {material: al, shape: {box: {min: [-1, -1, 0], max: [1, 1, 10 mm]}}, velocity: [0, -1 km/s]}}
-output: {frames: 0.5 us}
-measures: {velocity: {kind: mean_velocity, body: plate, axis: z}}
-references: {velocity: {value: -333.4 m/s, source: momentum}}
-"""
+SCENE = PLATE + "output: {frames: 0.5 us}\n"
 TEMPLATE = """---
 takes: 3 s
 set: {time.cfl: 0.4}
@@ -87,18 +71,9 @@ CELLS = "study: convergence\nscene: plate.yaml\nvary: {grid.cell: [1 mm, 0.5 mm,
 LAWS = "study: sweep\nscene: plate.yaml\nmeasures: [velocity]\nvary: {time.energy_error: [off, 1e-12]}\n"
 
 
-def write(name, text):
-    pathlib.Path(name).write_text(text, encoding="utf-8")
-
-
 def report(text, *words):
-    """Its command line within this process: to start Python anew takes longer than these studies."""
     write("plate.md", text)
-    out, error = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-        code = command.main(["study", "plate.md", "-j", "2", *words])
-    return types.SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=error.getvalue(),
-                                 text=out.getvalue() + error.getvalue())
+    return study_of("plate.md", *words)
 
 
 def page():

@@ -114,7 +114,8 @@ class Engine:
         return os.path.join(self.folder, "members", name + ending)
 
     def command(self, one, threads=None):
-        words = [KRATER, "run", self.scene, "-o", self.place(one.name), "-j", str(threads or self.threads), "--quiet"]
+        words = [KRATER, "run", os.path.abspath(self.scene), "-o", os.path.abspath(self.place(one.name)), "-j",
+                 str(threads or self.threads), "--quiet"]  # a queue may run it from anywhere
         for text in (*self.fixed, *one.settings):
             words += ["--set", text]
         return words
@@ -146,11 +147,15 @@ class Engine:
     def cost(summary, told):
         machine = summary.get("machine", {})
         wall = machine.get("wall_seconds", 0.0)
-        return {"core_seconds": told.get("core_seconds", wall * machine.get("threads", 1)),
+        # Of processors, never of the clock on the wall: beside others a run takes several times as long, and a price
+        # that is foretold from that would be as wrong.
+        core = told.get("core_seconds", machine.get("processor_seconds", wall * machine.get("threads", 1)))
+        setup = machine.get("seconds_outside_steps", {}).get("setup", 0.0)
+        return {"core_seconds": core,
                 "wall_seconds": told.get("wall_seconds", wall), "points": summary.get("points", 0),
                 "steps": summary.get("steps", 0), "point_steps": summary.get("points", 0) * summary.get("steps", 0),
                 "bytes": machine.get("peak_resident_bytes", 0), "threads": machine.get("threads", 1),
-                "stepping_seconds": wall * machine.get("threads", 1)}
+                "stepping_seconds": core * (1 - min(1.0, setup / wall) if wall else 1.0)}
 
     # ---- what it will cost
 
@@ -169,7 +174,10 @@ class Engine:
             for one, child in children:
                 out, error = child.communicate()
                 if child.returncode == 2:
-                    raise InputError(error.strip())
+                    for _, other in children:
+                        other.kill()
+                    said = "\n".join(dict.fromkeys(error.strip().split("\n")))
+                    raise InputError(said if said.startswith("--set ") else f"{said} (member {one.name})")
                 found = ESTIMATE.search(out)
                 self.forecasts[one.name] = (0, 0)
                 if found:

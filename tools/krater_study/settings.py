@@ -7,10 +7,12 @@ import numpy as np
 
 import pictures
 from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled
-from members import Member, member
+from members import Member, member, text_of
 from study_file import Block, flow
 
 MOST = 10000  # members of a grid
+CELL = "grid.cell"
+TARGETS = (5, 2, 1, 0.5)  # % of error that a price is told of
 
 
 def axes_of(study, key="vary", crossed=True):
@@ -76,7 +78,9 @@ class Pareto:
             known = 100 * told[1] / abs(truth) if told and told[1] else 0.0  # nearer than this is no nearer
             front = front_of(cost, [max(e, known) for e in error])
             clouds[name] = {"cost": cost, "error": error, "labels": [row.member.name for row in judged], "front": front,
+                            "known": known,
                             "truth": truth, "of": told[2] if told else f"member {dearest.member.name}, the dearest"}
+            clouds[name]["prices"] = {f"{target:g}": cheapest(judged, cost, error, target) for target in TARGETS}
             for i in front:
                 wins[judged[i].member.name].append(name)
             answer.sentences.append(f"{name}: error against {scaled_text(truth, done[0].unit(name))} "
@@ -85,13 +89,17 @@ class Pareto:
         answer.tables = [Table("All members, the cheapest first",
                                ["member", "core-seconds", *(f"{name}, error %" for name in clouds), "best for"],
                                [self.line(row, clouds, wins)
-                                for row in sorted(done, key=lambda r: r.cost["core_seconds"])])]
+                                for row in sorted(done, key=lambda r: r.cost["core_seconds"])]),
+                          Table("What an error costs: core time of the cheapest member that is as near, with all finer "
+                                "cells of its settings", ["measure", *(f"{target:g} %" for target in TARGETS)],
+                                [[name, *map(price, cloud["prices"].values())] for name, cloud in clouds.items()])]
         never = [name for name, won in wins.items() if not won and name != dearest.member.name]
         if never and clouds:
             answer.sentences.append("Dominated for every measure (another member is both cheaper and nearer): " +
                                     ", ".join(never) + ".")
         answer.data = {"measures": clouds, "dominated": never}
-        answer.pictures = [Picture("front", "Error against cost; the line joins the settings that nothing beats.",
+        answer.pictures = [Picture("front", "Error against cost; the line joins the settings that nothing beats. "
+                                   "Shaded: nearer than the truth itself is known, which counts as no nearer.",
                                    lambda figure: pictures.front(figure, clouds))] if clouds else []
         return answer
 
@@ -100,6 +108,20 @@ class Pareto:
         errors = [dict(zip(c["labels"], c["error"])).get(row.member.name) for c in clouds.values()]
         return [row.member.name, number(row.cost["core_seconds"], 3), *(number(e, 3) for e in errors),
                 ", ".join(wins[row.member.name])]
+
+
+def cheapest(rows, cost, error, target):
+    """(core-seconds, member) of the cheapest that is as near, and stays so with every finer cell: a coarse cell that hits
+    by luck is no price. None: no member is."""
+    rest = [{path: text for path, text in row.member.values.items() if path != CELL} for row in rows]
+    steady = [(cost[i], row.member.name) for i, row in enumerate(rows)
+              if all(error[j] <= target for j, finer in enumerate(rows)
+                     if rest[j] == rest[i] and finer.cell <= row.cell)]
+    return min(steady) if steady else None
+
+
+def price(found):
+    return f"{text_of(found[0])}: {found[1]}" if found else "-"
 
 
 def front_of(cost, error):
