@@ -11,6 +11,7 @@ from scene_support import ROOT, Folder, check, finish
 from study_support import SCENE as PLATE
 from study_support import study_of, write
 import columns
+import run_pictures
 from members import Member, Row
 from study_file import InputError
 
@@ -55,14 +56,16 @@ times: 1 us
 ```
 
 ```krater
-outlines: cells
+outlines: [cells, again]
 time: 1 us
+members: ["*/cell=1mm"]
 boxes: [[0 mm, 1 mm, 0 mm, 12 mm]]
 ```
 
 ```krater
-histories: cells
+histories: [cells, again]
 measures: velocity
+members: ["*/cell=1mm"]
 ```
 
 Last words.
@@ -77,6 +80,8 @@ def report(text, *words):
 
 
 def page():
+    labels, drawn = [], run_pictures.histories
+    run_pictures.histories = lambda rows, *words, **more: labels.append(list(rows)) or drawn(rows, *words, **more)
     done = report(TEMPLATE)
     check(done.returncode == 0 and "about 3 s" in done.stderr, "a report is made", done.text[-600:])
     text = pathlib.Path("plate_report/README.md").read_text(encoding="utf-8")
@@ -96,6 +101,7 @@ def page():
     check("the model's error lies between" in text and "What is known of each measure" in text, "the study answers")
     check("| 1e-12 | - |" in text and "**Member energy_error=1e-12 failed: exit code 3" in text, "a failed member is told")
     pictures = re.findall(r"!\[[^\]]*\]\((\S+\.png)\)", text)
+    check(labels[-1] == ["cells, 1 mm", "again, 1 mm"], "members of two studies are told apart in a picture", labels)
     check(len(pictures) == 3 and all(os.path.getsize("plate_report/" + one) > 5000 for one in pictures), "pictures", pictures)
     set_ = json.loads(next(pathlib.Path("plate_report").glob("runs_out/cells_*/members/cell=1mm/summary.json")).read_text(
         encoding="utf-8"))["machine"]["set"]
@@ -114,7 +120,7 @@ def again():
     check(done.returncode == 0 and "3 of 3 members to run" in done.stderr, "a scene that changed is run anew", done.text)
     write("plate.yaml", SCENE)
     done = report(TEMPLATE, "--list", "-o", "queued")
-    check(done.returncode == 0 and len(done.stdout.splitlines()) == 5, "members for a queue", done.text)
+    check(done.returncode == 0 and len(done.stdout.splitlines()) == 8, "members for a queue", done.text)
 
 
 def bad_input():
@@ -165,6 +171,7 @@ def expressions():
 with Folder():
     write("plate.yaml", SCENE)
     write("cells.yaml", CELLS)
+    write("again.yaml", CELLS.replace("vary", "set: {time.end: 0.9 us}\nvary"))
     write("laws.yaml", LAWS)
     page()
     again()

@@ -155,7 +155,7 @@ class Engine:
                 "wall_seconds": told.get("wall_seconds", wall), "points": summary.get("points", 0),
                 "steps": summary.get("steps", 0), "point_steps": summary.get("points", 0) * summary.get("steps", 0),
                 "bytes": machine.get("peak_resident_bytes", 0), "threads": machine.get("threads", 1),
-                "stepping_seconds": core * (1 - min(1.0, setup / wall) if wall else 1.0)}
+                "stepping_seconds": core * (wall / (wall + setup) if wall else 1.0)}
 
     # ---- what it will cost
 

@@ -12,7 +12,7 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 9, "axes.edgecolor": GREY, "
          "text.color": INK,
          "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False,
          "axes.titlesize": 10,
-         "axes.titlelocation": "left", "axes.grid": True, "grid.color": "#e6eaee", "legend.frameon": False,
+         "axes.titlelocation": "left", "axes.grid": True, "axes.axisbelow": True, "grid.color": "#e6eaee", "legend.frameon": False,
          "svg.fonttype": "none", "svg.hashsalt": "krater", "figure.constrained_layout.use": True}
 
 

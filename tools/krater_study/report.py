@@ -87,6 +87,8 @@ class Report:
         """{label: folder} of the members that are done."""
         pairs = [(study, row) for study, row in self.rows(piece) if row.done]
         labels = labels_of([row for _, row in pairs])
+        if len(piece.studies) > 1:
+            labels = [f"{study.name}, {label}" for label, (study, _) in zip(labels, pairs)]
         return {label: self.place(study, row) for label, (study, row) in zip(labels, pairs)}
 
     def folder_of(self, row):
