@@ -17,9 +17,10 @@ import h5py
 
 from scene_support import ROOT, Folder, check, command, environment, finish, krater
 from study_support import SCENE, study_of, write
+from answer import Answer
 from members import Member, Row, member
 from refinement import Convergence
-from search import BallisticLimit
+from search import BallisticLimit, by_cell
 
 SHOT = """
 frame: axisymmetric
@@ -270,6 +271,8 @@ def bad_input():
             ("three constants", "study: calibrate\nscene: plate.yaml\nvary: {a: [1, 2], b: [1, 2], c: [1, 2]}\n"
              "truth: {velocity: {value: 1 m/s}}\n", "bad.yaml:3: vary: one or two"),
             ("shifts that the sides forbid", base + "repeats: 3\n", "bad.yaml:5: repeats: .*leave repeats out"),
+            ("one cell for a limit", LIMIT + "cells: [0.5 mm]\n", "bad.yaml:5: cells: two cells or more"),
+            ("a cell twice", LIMIT + "cells: [0.5 mm, 0.45 mm]\n", "bad.yaml:5: cells: .*15 %"),
             ("no outcome", "study: ballistic_limit\nscene: plate.yaml\noutcome: shot\nspeed: {}\n",
              "bad.yaml:3: outcome")):
         done = study("bad", text)
@@ -295,6 +298,31 @@ def limit():
     check(done.returncode == 0 and 0 < high - low <= 40 and fates[high] and not fates[low], "the limit is bracketed",
           said)
     check(said["fit"] and low - 60 < said["fit"]["limit"] < high + 60, "and fitted", said.get("fit"))
+    check("give `cells: [...]`" in done.stdout, "of one cell, which the study says", done.stdout)
+
+
+def limit_by_cell():
+    """Limits of several cells, each found for itself; and of made-up ones, whether they answer the question."""
+    done = study("cells", LIMIT.replace("tolerance: 40", "tolerance: 150") + "cells: [0.5 mm, 1 mm]\n")
+    said = answer("cells")["answer"]
+    check(done.returncode == 0 and [one["cell"] for one in said["cells"]] == [1e-3, 5e-4], "coarse, then fine", said)
+    for one in said["cells"]:
+        fates = {speed: through for speed, _, through in one["shots"]}
+        low, high = one["bracket"]
+        check(0 < high - low <= 150 and fates[high] and not fates[low] and len(fates) >= 4, "each is bracketed by its own", one)
+    check(said["limit"] == 0.5 * sum(said["cells"][1]["bracket"]) and said["uncertainty"] == 137.5 and
+          re.search(r"By the cells 1, 0.5 mm the limit is .* \+- ", done.stdout), "and told together", done.stdout)
+    for what, limits, words in (
+            ("20, 40, 60 through a plate of 12 mm", (239, 209, 189), "do not answer to 2 %, and where it ends these cells do not"),
+            ("of first order", (240, 215, 206.7), r"0\.6, 0\.3, 0\.2 mm do not answer to 2 %; 0\.0\d+ mm should, about"),
+            ("within their intervals", (200, 201, 200.5), "Every one"),
+            ("settled", (201, 200.2, 200), r"Every one of these cells answers to 2 %"),
+            ("settled in the end", (240, 200.2, 200), r"^0\.6 mm does not answer to 2 %\."),
+            ("wavering", (200, 260, 190), "do not answer to 2 %, and where it ends")):
+        told = Answer()
+        by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1]} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
+                "m/s", (1e-9, -3.0, 1e-7))
+        check(re.search(words, told.sentences[-1]), f"{what}: {words}", told.sentences)
 
 
 def examples():
@@ -333,5 +361,6 @@ with Folder():
     queue()
     bad_input()
     limit()
+    limit_by_cell()
     examples()
 finish()

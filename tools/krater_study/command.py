@@ -22,7 +22,7 @@ from study_file import InputError, Study, flow, load, seconds
 KINDS = {"convergence": Convergence, "pareto": Pareto, "ablation": Ablation, "sweep": Sweep,
          "ballistic_limit": BallisticLimit, "calibrate": Calibrate}
 # What makes the members; the rest of a study file only asks of them, and may change.
-MAKES = ("set", "truth", "vary", "repeats", "effects", "design", "seed", "outcome", "speed")
+MAKES = ("set", "truth", "vary", "repeats", "effects", "design", "seed", "outcome", "speed", "cells")
 DONE, BAD_INPUT, NOTHING, STOPPED, WARNED = 0, 2, 3, 4, 5
 
 

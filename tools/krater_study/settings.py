@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 
 import pictures
-from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled
+from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled, short_names
 from members import Member, member, text_of
 from study_file import Block, flow
 
@@ -131,9 +131,9 @@ def front_of(cost, error):
                        for j in range(len(cost)))]
 
 
-def scaled_text(value, unit):
+def scaled_text(value, unit, digits=5):
     scale, unit = scaled(unit)
-    return f"{scale * value:.5g} {unit}".strip()
+    return f"{scale * value:.{digits}g} {unit}".strip()
 
 
 class Ablation:
@@ -245,7 +245,8 @@ class Sweep:
         if not done:
             return answer
         paths = list(done[0].member.values)
-        answer.tables = [Table("All members", ["member", *paths, *self.study.measures, "core-seconds"],
+        short = short_names(paths)
+        answer.tables = [Table("All members", ["member", *short.values(), *self.study.measures, "core-seconds"],
                                [[row.member.name, *row.member.values.values(),
                                  *("-" if row.measure(name) is None else scaled_text(row.measure(name), row.unit(name))
                                    for name in self.study.measures), number(row.cost["core_seconds"], 3)]
@@ -264,7 +265,7 @@ class Sweep:
             if len(good) > 1:
                 answer.data["spread"][name] = float(np.std(good, ddof=1))
                 answer.sentences.append(f"{name}: mean {scaled_text(np.mean(good), unit)}, standard deviation "
-                                        f"{scaled_text(np.std(good, ddof=1), unit)} over {len(good)} members.")
+                                        f"{scaled_text(np.std(good, ddof=1), unit, 3)} over {len(good)} members.")
         answer.pictures = [Picture("sweep", "Every measure against every input.",
                                    lambda figure: pictures.scatter(figure, inputs, outputs))]
         return answer
@@ -274,7 +275,7 @@ class Sweep:
         from scipy.stats import spearmanr
         table = Table("Rank correlation of measure and input (Spearman; in brackets the chance to see as much from "
                       "none)",
-                      ["measure", *inputs], [])
+                      ["measure", *short_names(list(inputs)).values()], [])
         for name, (values, _) in outputs.items():
             cells, y = [], np.asarray(values, float)
             for x, _ in inputs.values():
@@ -300,7 +301,7 @@ class Sweep:
                             row.member.values[path] == text]
                     mean = np.mean(every) if every else 0
                     cells.append(f"{100 * (np.mean(here) - mean) / abs(mean):+.3g}" if here and mean else "-")
-                table.rows.append([path, text, *cells])
+                table.rows.append([short_names(paths)[path], text, *cells])
         return table
 
 

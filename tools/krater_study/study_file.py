@@ -15,7 +15,7 @@ KEYS = {
     "pareto": ("vary",),
     "ablation": ("effects",),
     "sweep": ("vary", "design", "members", "seed"),
-    "ballistic_limit": ("outcome", "speed", "members"),
+    "ballistic_limit": ("outcome", "speed", "members", "cells"),
     "calibrate": ("vary", "members"),
 }
 REQUIRED = {"convergence": (), "pareto": ("vary",), "ablation": ("effects",), "sweep": ("vary",),
