@@ -31,7 +31,8 @@ def what_cannot_be_read():
     path = pathlib.Path("taylor_copper/README.md")
     text = path.read_text(encoding="utf-8")
     report = index.Report(path)
-    check(index.FIGURES["taylor_copper"](report).value == f"{index.number(report.cell(r'^0\.09525 mm', 'length mm')):g} mm",
+    length = index.number(report.cell(r"^0\.09525 mm", "length mm"))
+    check(index.FIGURES["taylor_copper"](report).value == f"{length:g} mm",
           "the figure is the cell of the table")
     for change, what in ((("0.09525 mm", "quarter"), "no table with a row"),
                          ((", krater ", " by "), "no date and revision")):
