@@ -119,6 +119,14 @@ def again():
     done = report(TEMPLATE)
     check(done.returncode == 0 and "3 of 3 members to run" in done.stderr, "a scene that changed is run anew", done.text)
     write("plate.yaml", SCENE)
+    done = report(TEMPLATE, "--budget", "0.01s", "-o", "poor")
+    check(done.returncode == 2 and "below one run" in done.text, "a budget below one run is refused", done.text)
+    write("cells.yaml", CELLS.replace("0.25 mm", "0.005 mm"))
+    done = report(TEMPLATE.split("```krater\ndemand")[0], "--budget", "10s", "-o", "poor")
+    text = pathlib.Path("poor/README.md").read_text(encoding="utf-8")
+    check(done.returncode == 4 and "| 0.5 mm | -3" in text and "| 0.005 mm | - |" in text and "were not run" in text,
+          "a budget that ends leaves what does not fit, and says so", done.text + text)
+    write("cells.yaml", CELLS)
     done = report(TEMPLATE, "--list", "-o", "queued")
     check(done.returncode == 0 and len(done.stdout.splitlines()) == 8, "members for a queue", done.text)
 

@@ -168,13 +168,14 @@ class Asked:
 
 
 def ask(study, question, folder, jobs, budget, run=True):
-    """Runs what the question wants (`run`), or reads what is done."""
+    """Runs what the question wants (`run`), or reads what is done. A budget of 0 s, that others have used up, leaves all;
+    one below one run is an error."""
     held = lock(folder)
     require_same(study, folder)
     engine = question.engine = Engine(study.scene, folder, study.fixed(), jobs, study.threads, budget, say)
     asked = Asked(study, question, engine, folder)
     try:
-        asked.rows, asked.more = gather(question, engine, run)
+        asked.rows, asked.more = gather(question, engine, run and budget != 0)
     except InputError as error:
         raise locate(study, error) from None
     held.close()

@@ -19,7 +19,7 @@ import columns
 import command
 import results
 from answer import failed_sentences
-from members import KRATER, text_of
+from members import KRATER, LEAST, text_of
 from study_file import InputError, Study, flow
 from template import Template
 
@@ -281,10 +281,17 @@ def squeezed(text):
     return text
 
 
+def remaining(budget, start, more):
+    """Of a budget [s]; less than a look at the next study takes is none, and none goes on where one study had too little."""
+    left = budget - (time.monotonic() - start)
+    return 0 if more or left < LEAST else left
+
+
 def run(given):
     """Exit code of `krater study REPORT.md`."""
     template = Template(given.file)
-    budget, start = command.budget_of(given), time.monotonic()
+    budget = command.budget_of(given)
+    begin = start = time.monotonic()
     folder = given.output or os.path.splitext(os.path.basename(given.file))[0] + "_report"
     report = Report(template, folder)
     for name in template.studies:  # errors of input now, not after hours
@@ -294,14 +301,15 @@ def run(given):
     more = False
     try:
         for name in template.studies:
-            left = None if budget is None else max(0.01, budget - (time.monotonic() - start))
-            more = report.ask(name, given, left) or more
+            more = report.ask(name, given, budget) or more
+            budget = budget and remaining(budget, start, more)
+            start = time.monotonic()
     except KeyboardInterrupt:
         command.say(f"krater study: interrupted; what is done lies in {folder}/runs_out; the same command goes on")
         return command.STOPPED
     if given.list:
         return command.DONE
-    command.say(f"krater study: {report.write()} ({text_of(time.monotonic() - start)})")
+    command.say(f"krater study: {report.write()} ({text_of(time.monotonic() - begin)})")
     if any(study.answer is None for study in report.studies.values()):
         return command.STOPPED if more else command.NOTHING
     return command.STOPPED if more else command.DONE
