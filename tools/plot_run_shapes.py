@@ -10,7 +10,7 @@ from matplotlib import cm, colormaps, colors, patches, patheffects
 from plot_run_elements import draw_elements, draw_surfaces
 from plot_run_raster import box_mean, stamp
 from plot_run_section import Section
-from run_reader import reference_error, reference_of
+from run_reader import reference_error, reference_of, uncertainty_of
 from units import quantity, scale_of
 
 ABSENT = -1e300
@@ -276,7 +276,8 @@ def draw_measures(axes, run, bodies, box, mm, unit):
         if z is None:
             continue
         value, (wanted, source) = measure["value"], reference_of(measure)
-        text = f"{name.replace('_', ' ')}\n{value / mm:#.5g} {unit}"
+        band = uncertainty_of(measure)
+        text = f"{name.replace('_', ' ')}\n{value / mm:#.5g}" + ("" if band is None else f" ± {band / mm:.2g}") + f" {unit}"
         if wanted:
             bar = "" if reference_error(measure) is None else f" ± {reference_error(measure) / mm:.2g}"
             text += f"\nreference {wanted / mm:#.5g}{bar} {unit} ({100 * (value / wanted - 1):+.1f} %)"

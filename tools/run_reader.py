@@ -340,6 +340,12 @@ def reference_of(measure):
     return (value if isinstance(value, (int, float)) else None), str(reference.get("source") or "reference")
 
 
+def uncertainty_of(measure):
+    """Half the band that a study found for a measure, or None."""
+    band = measure.get("uncertainty")
+    return band if isinstance(band, (int, float)) else None
+
+
 def reference_error(measure):
     """Half the bar that the source of a measure's reference gives, or None."""
     reference = measure.get("reference")

@@ -5,6 +5,8 @@ A problem is text by cells along its length, the cells, and {measure: (kind as Y
 cells between planes of symmetry, so only means and lengths along z are asked of them."""
 
 import dataclasses
+import pathlib
+import re
 
 import numpy as np
 from scipy.integrate import quad
@@ -15,6 +17,7 @@ from validate_energy import MATERIALS, NOH_SIDES, behind_shock
 from validate_energy_exact import sod_exact
 
 FINE = (25, 50, 100, 200)
+SOLUTIONS = pathlib.Path(__file__).resolve().parents[1] / "validation" / "solutions"
 
 
 @dataclasses.dataclass
@@ -235,7 +238,32 @@ def breathing(kind):
     return Problem(f"breathing {kind}", scene, {"velocity": (velocity("b"), exact)}, (10, 20, 40, 80), True)
 
 
+def solved(title, file, length, measures, kinematics, cells):
+    """A scene of validation/solutions; `cells` in `length` [m]."""
+    text = (SOLUTIONS / f"{file}_scene.yaml").read_text(encoding="utf-8").partition("\nmeasures:")[0] + "\n"
+    text = text.replace("\n  body:\n", f"\n  body:\n    kinematics: {kinematics}\n")
+    text = text.replace("\n  body: {", f"\n  body: {{kinematics: {kinematics}, ")
+    return Problem(f"{title}, {'points' if kinematics == 'mpm' else 'elements'}",
+                   lambda n: re.sub(r"cell: [\d.]+ mm", f"cell: {length / n!r}", text), measures, cells)
+
+
+def solutions():
+    """A plate that bends in its first mode (Rayleigh and Lamb), the same nearly incompressible, a disc that turns: its
+    angular momentum and energy of motion per metre, m r^2 w/2 and m r^2 w^2/4 of 1000 kg/m^3, 10 mm, 100 1/s."""
+    half = velocity("body", "x_max: 5 mm")
+    spin = 0.5 * np.pi * 1e3 * 0.01**4 * 100
+    for kinematics in ("mpm", "lagrangian_mesh"):
+        yield solved("plate that bends", "bending", 2e-3, {"velocity": (half, 0.0447401483)}, kinematics,
+                     (2, 4, 8, 16))
+        yield solved("the same, Poisson 0.499", "incompressible", 2e-3, {"velocity": (half, 0.0443911008)},
+                     kinematics, (2, 4, 8))
+        yield solved("spinning disc", "spin", 1e-2, {
+            "spin": ("kind: angular_momentum, body: body", -spin),
+            "motion": ("kind: kinetic_energy, body: body", 0.5 * spin * 100)}, kinematics, (4, 8, 16))
+
+
 def problems():
     return [*(shock(name, u) for name, u in zip(MATERIALS, (1000, 2000, 3000, 1500))), shock("copper", 500),
             *map(noh, NOH_SIDES), sod(), bar_mode(), bar_wall(), plastic_wall(), bars("equal", K),
-            bars("unequal", 0.3 * K), gas_wall(), pushed(), breathing("sphere"), breathing("cylinder")]
+            bars("unequal", 0.3 * K), gas_wall(), pushed(), breathing("sphere"), breathing("cylinder"),
+            *solutions()]

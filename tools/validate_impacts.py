@@ -2,15 +2,15 @@
 """Tables and pictures that the reports of impact scenes share, for validation/*/make_report.py."""
 
 import os
-import textwrap
 
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from matplotlib import colormaps, colors  # noqa: E402
 
-from plot_run_shapes import Colouring, draw_section, limits, view_from_outside  # noqa: E402
+import run_pictures  # noqa: E402
+from plot_run_shapes import view_from_outside  # noqa: E402
+from run_pictures import Scale, nearest  # noqa: E402, F401
 from run_reader import Run as Shapes  # noqa: E402
 
 COST_TITLES = ["points", "steps", "energy error %", "change of momentum", "memory MB", "wall time s (threads)"]
@@ -43,47 +43,16 @@ def nanoseconds(run):
     return 1e9 * seconds * run.summary["machine"]["threads"] / (run.summary["points"] * run.summary["steps"])
 
 
-class Scale(Colouring):
-    """A field with a scale that is given, the same in every picture."""
-
-    def __init__(self, run, field, top, bottom=0.0, factor=1.0, label=None):
-        super().__init__(run, run.numbers[-1:])
-        self.field, self.factor, self.extend = field, factor, "max"
-        self.map, self.norm = colormaps["viridis"], colors.Normalize(bottom, top)
-        self.label = label or field.replace("_", " ")
-
-
-def nearest(shapes, time):
-    return min(shapes.numbers, key=lambda number: abs(shapes.time(number) - time))
+def named(runs):
+    """{name: folder} of the runs that there are."""
+    return {name: run.folder for name, run in runs.items() if run}
 
 
 def shapes(study, rows, times, target, scale, box=None, title="", pixels=700):
     """{name: run} in rows, times in columns, coloured by `scale(shapes)`; box in mm: x, x, z, z."""
-    rows = {name: run for name, run in rows.items() if run}
-    if not rows:
-        return
-    wide = (box[1] - box[0]) / (box[3] - box[2]) if box else 1.0
-    width = float(np.clip(3.6 * wide, 2.2, 6.0))
-    figure, grid = plt.subplots(len(rows), len(times), squeeze=False, sharex=True, sharey=True,
-                                layout="constrained",
-                                figsize=(width * len(times) + 1.4, (width / wide + 0.35) * len(rows) + 0.8))
-    for line, (name, run) in zip(grid, rows.items()):
-        run_shapes = Shapes(run.folder)
-        colouring = scale(run_shapes)
-        for axes, time in zip(line, times):
-            number = nearest(run_shapes, time)
-            whole = np.array(box) if box else limits(run_shapes, [number], 1e-3)
-            draw_section(axes, run_shapes, run_shapes.bodies(number), colouring, 1e-3, whole, pixels)
-            axes.set_xlim(whole[0], whole[1])
-            axes.set_ylim(whole[2], whole[3])
-            axes.set_title(textwrap.fill(f"{name}, {1e6 * run_shapes.time(number):.4g} µs", int(12 * width)), fontsize=10)
-        line[0].set_ylabel("z [mm]")
-    for axes in grid[-1]:
-        axes.set_xlabel("r [mm]" if run_shapes.frame == "axisymmetric" else "x [mm]")
-    colouring.bar(figure, ax=grid, fraction=0.03)
-    figure.suptitle(title)
-    figure.savefig(os.path.join(study.folder, target), dpi=110)
-    plt.close(figure)
+    if named(rows):
+        run_pictures.sections(named(rows), times, scale, box, title, pixels).savefig(
+            os.path.join(study.folder, target), dpi=110)
 
 
 def outside(study, runs, time, target, scale, title="", **view):
@@ -107,23 +76,8 @@ def outside(study, runs, time, target, scale, title="", **view):
 
 def histories(study, runs, columns, target, unit, factor=1.0, lines=(), title=""):
     """Columns of the history of {name: run} over time; lines: (value, words) across the picture."""
-    figure, axes = plt.subplots(figsize=(8, 4.6), layout="constrained")
-    styles = {column: style for column, style in zip(columns, ("-", "--", ":", "-."))}
-    for k, (name, run) in enumerate((n, r) for n, r in runs.items() if r):
-        data = run.history()
-        for column, words in columns.items():
-            axes.plot(1e6 * data["time"], factor * data[column], styles[column], color=f"C{k}", lw=1.4,
-                      label=f"{words}, {name}")
-    for number, words in lines:
-        axes.axhline(number, color="#d6006c", ls=(0, (6, 3)), lw=1.2, label=words)
-    axes.set_xlabel("time [µs]")
-    axes.set_ylabel(unit)
-    axes.legend(frameon=False, fontsize=9)
-    axes.set_title(title)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    figure.savefig(os.path.join(study.folder, target), dpi=110)
-    plt.close(figure)
+    run_pictures.histories(named(runs), columns, unit, factor, lines, title).savefig(
+        os.path.join(study.folder, target), dpi=110)
 
 
 def discussion(study):

@@ -46,8 +46,7 @@ class Report:
             raise ValueError(f"{path}: no date and revision in its third line")
         self.date, self.revision, self.modified = head.groups()
         self.tables = tables_of(self.text)
-        script = (path.parent / "make_report.py").read_text(encoding="utf-8")
-        self.seconds = int(re.search(r"^ESTIMATED_SECONDS *= *(\d+)", script, re.MULTILINE).group(1))
+        self.seconds = takes(maker(path.parent))
 
     def table(self, row, title):
         for table in self.tables:
@@ -71,8 +70,30 @@ class Report:
         seconds = "-"
         if any(re.search("wall time", text) for text in table.titles):
             seconds = re.sub(r"([\d.]+)", r"\1 s", table.at(finest, "wall time"), count=1)
+        elif "core s" in table.titles:
+            seconds = table.at(finest, "^core s$") + " core s"
         unit = re.search(r"(?<!\w)(mm|m/s|%)", next(t for t in table.titles if re.search(title, t))).group(1)
         return Figure(what, f"{first:g} {unit}", f"{abs(first - second):.2g} {unit}, {distance}", seconds)
+
+
+def maker(folder):
+    """Template or script of a report."""
+    return next(path for path in (folder / "report.md", folder / "make_report.py") if path.exists())
+
+
+def makers():
+    """Of all reports."""
+    return sorted(maker(path) for path in (ROOT / "validation").iterdir()
+                  if (path / "report.md").exists() or (path / "make_report.py").exists())
+
+
+def takes(path):
+    """Seconds that making a report takes, as its maker says."""
+    found = re.search(r"^(?:ESTIMATED_SECONDS *= *|takes: *)(\d+)(?: *(s|min))?", path.read_text(encoding="utf-8"),
+                      re.MULTILINE)
+    if not found:
+        raise ValueError(f"{path}: it does not say how long it takes")
+    return int(found.group(1)) * (60 if found.group(2) == "min" else 1)
 
 
 def number(text):
@@ -106,7 +127,8 @@ def worst(report, title):
 # Report -> its figure of merit.
 FIGURES = {
     "ablations": lambda r: Figure("choices that move no measure by 0.5 %",
-                                  r.found(r"\*\*(\d+ of \d+) choices could go")),
+                                  f"{r.text.count('| could go |')} of "
+                                  f"{r.text.count('| could go |') + r.text.count('| keep |')}"),
     "analyst": lambda r: Figure("an example to the first picture that was asked for", r.cell("^the first picture", "since the start")),
     "calibration": lambda r: Figure("bands that hold the truth (demanded 90 %)",
                                     r.found(r"\*\*([\d.]+ % of \d+) bands")),
@@ -121,7 +143,7 @@ FIGURES = {
     "contact": lambda r: Figure("equal bars: share that the struck bar takes (exact 1)",
                                 r.cell("^the same, 100", "found"),
                                 f"{1 - number(r.cell('^the same, 100', 'found')):.2g}, to the exact"),
-    "copper_bar": lambda r: r.finest("foot radius (five codes 7.22)", "foot radius mm", "^R/h = 32", "^R/h = 16"),
+    "copper_bar": lambda r: r.finest("foot radius (five codes 7.22)", "foot radius mm", r"^0\.1 mm", r"^0\.2 mm"),
     "distribution": lambda r: Figure("runs on several ranks with the bits of one", r.found(r"\*\*(\d+ of \d+)\*\* identical")),
     "energy": lambda r: Figure("e behind shocks of 1 to 6 km/s, worst at 200 cells", f"{worst(r, '^e, 200'):.2f} %"),
     "fronts": lambda r: Figure("W of Taylor copper to 1 %: core time, cheapest setting",
@@ -131,7 +153,7 @@ FIGURES = {
     "hypervelocity": lambda r: Figure("crater of aluminium at 5 km/s, 20 cells; off the nearest formula",
                                       r.cell("^aluminium, 5 km/s, 20", "^depth") + " mm",
                                       r.cell("^aluminium, 5 km/s, 20", "^off") + " %"),
-    "hiermaier_al": lambda r: r.finest("hole (experiment 31.0 mm)", "hole mm", "^40 cells", "^20 cells"),
+    "hiermaier_al": lambda r: r.finest("hole (experiment 31.0 mm)", "hole mm", "^40$", "^20$"),
     "kinematics": lambda r: Figure("plugging, elements at 20 through the plate (measured 241.4 m/s)",
                                    r.cell("^elements, 20 through", "residual velocity") + " m/s"),
     "levels": lambda r: Figure("time of three levels over the uniform grid, a plate in 3D (asked 0.2)",
@@ -156,7 +178,8 @@ FIGURES = {
         "^T139", "best card"), "± " + r.table("^T139", "grid").at("^T139", "grid") + " %, band"),
     "thin_sheets": lambda r: Figure("force of a bar stretched eightfold, off the exact (left alone: torn)",
                                     r.cell("^split", "force at 8") + " %"),
-    "taylor_copper": lambda r: r.finest("length (experiment 16.205 mm)", "length mm", "^h/4 =", "^h/2 ="),
+    "taylor_copper": lambda r: r.finest("length (experiment 16.205 mm)", "length mm", r"^0\.09525 mm",
+                                        r"^0\.1905 mm"),
 }
 
 
@@ -186,7 +209,7 @@ def row_of(report):
 
 
 def page():
-    paths = sorted((ROOT / "validation").glob("*/make_report.py"))
+    paths = makers()
     unknown = [p.parent.name for p in paths if p.parent.name not in FIGURES]
     if unknown:
         raise ValueError(f"tools/validate_index.py knows no figure of: {', '.join(unknown)}")
@@ -195,8 +218,8 @@ def page():
     lines = ["# What krater gets right, misses and costs", "",
              f"Made by `tools/validate --index` from the reports themselves, at {head}; do not edit. Each report "
              "says what its figure is worth. Error bar: the report's own band, or how far the last refinement moved "
-             "the value. Cost: wall time (threads) of the run that gave the figure; then of the whole report on two "
-             "quiet cores.", "",
+             "the value. Cost: wall time (threads), or core-seconds, of the run that gave the figure; then of the whole "
+             "report on two quiet cores.", "",
              "| report | figure of merit | value | error bar | run | report | date | revision | by the present code |",
              "| --- | --- | ---: | ---: | ---: | ---: | --- | --- | --- |"]
     for path in made:

@@ -20,7 +20,7 @@ import yaml
 from scene_support import KRATER, ROOT, Folder, check, finish, krater
 
 PAGES = ROOT / "src" / "manual" / "pages"
-FENCE = re.compile(r"((?:<!--[^>]*-->\n)*)```(\w+)\n(.*?)```", re.S)
+FENCE = re.compile(r"((?:<!--[^>]*-->\n)*)^(`{3,})(\w+)\n(.*?)^\2$", re.S | re.M)
 NAMED = re.compile(r"Write this as `([\w.]+)`[^`]*\Z")
 # Where one of several is chosen, another choice replaces it.
 CHOICES = {"shape", "velocity", "kinematics", "eos", "strength", "model", "damage", "transfer", "filter", "where"}
@@ -43,7 +43,7 @@ def blocks(page):
     for match in FENCE.finditer(text):
         name = NAMED.search(text[:match.start()].rstrip())
         comments = re.findall(r"<!--\s*(.*?)\s*-->", match[1])
-        found.append((match[2], match[3], comments, name[1] if name else None))
+        found.append((match[3], match[4], comments, name[1] if name else None))
     return found
 
 
@@ -149,7 +149,7 @@ def tutorial(page, folder, path):
 def every_tutorial(folder):
     path = commands_folder(folder / "bin")
     pages = sorted((PAGES / "tutorials").glob("*.md"))
-    check(len(pages) == 7, "seven tutorials", ", ".join(page.stem for page in pages))
+    check(len(pages) == 8, "eight tutorials", ", ".join(page.stem for page in pages))
     for page in pages:
         wrong, ran = tutorial(page, folder, path)
         check(not wrong and ran > 0, f"tutorial {page.stem} from an empty folder, {ran} commands", wrong)

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`krater study`: the engine (resume, failing members, budget, queue, bad input), every kind at toy size."""
 
-import contextlib
 import csv
-import io
 import json
 import os
 import pathlib
@@ -12,33 +10,18 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 import types
 
 import h5py
 
-from scene_support import KRATER, ROOT, Folder, check, command, environment, finish, krater
+from scene_support import ROOT, Folder, check, command, environment, finish, krater
+from study_support import SCENE, study_of, write
+from answer import Answer
+from members import Member, Row, member
+from refinement import Convergence
+from search import BallisticLimit, by_cell
 
-os.environ["KRATER"] = KRATER
-sys.path.insert(0, str(ROOT / "tools" / "krater_study"))
-import command as study_command  # noqa: E402
-from members import Member, Row, member  # noqa: E402
-from refinement import Convergence  # noqa: E402
-from search import BallisticLimit  # noqa: E402
-
-SCENE = """
-frame: plane_strain
-grid: {cell: 0.5 mm, box: {min: [0, 0], max: [1 mm, 12 mm]},
-       boundary: {z_min: symmetry, x_min: symmetry, x_max: symmetry}}
-time: {end: 1 us}
-materials: {al: {density: 2785, eos: {mie_gruneisen_shock: {c0: 5328 m/s, S1: 1.338, gamma0: 2.0}}, viscosity: {}}}
-bodies: {plate: {material: al, shape: {box: {min: [-1, -1, 0], max: [1, 1, 10 mm]}}, velocity: [0, -1 km/s]}}
-measures:
-  velocity: {kind: mean_velocity, body: plate, axis: z}
-  gone: {kind: mean_velocity, body: plate, axis: z, region: {z_min: 11 mm}}
-references: {velocity: {value: -333.4 m/s, source: momentum}}
-"""
 SHOT = """
 frame: axisymmetric
 grid: {cell: 0.5 mm, box: {min: [0, -14 mm], max: [6 mm, 8 mm]}, boundary: {r_min: axis}}
@@ -60,20 +43,10 @@ LIMIT = "study: ballistic_limit\nscene: shot.yaml\noutcome: shot\nspeed: {path: 
         "between: [50 m/s, 600 m/s], tolerance: 40 m/s}\n"
 
 
-def write(name, text):
-    pathlib.Path(name).write_text(text, encoding="utf-8")
-    return name
-
-
 def study(name, text="", *words):
-    """Its command line within this process: to start Python anew takes longer than most of these studies."""
     if text:
         write(name + ".yaml", text)
-    out, error = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-        code = study_command.main(["study", name + ".yaml", "-j", "2", *words])
-    return types.SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=error.getvalue(),
-                                 text=out.getvalue() + error.getvalue())
+    return study_of(name + ".yaml", *words)
 
 
 def answer(name):
@@ -105,6 +78,12 @@ def files_of_a_study():
     check("core time" in done.stderr and "left" in done.stderr, "cost is foretold, and what is left", done.stderr)
     done = study("three")
     check(done.returncode == 0 and "members to run" not in done.stderr, "a second call runs nothing", done.stderr)
+    check("Members were made" not in done.stdout, "by this program", done.stdout)
+    path = pathlib.Path("three_study/members/cell=1mm/summary.json")
+    told = path.read_text(encoding="utf-8")
+    path.write_text(re.sub(r'("revision": ")[^"]*', r"\g<1>feedfacecafe", told), encoding="utf-8")
+    check("Members were made by several revisions" in study("three").stdout, "members of another program are told")
+    path.write_text(told, encoding="utf-8")
 
 
 def resumed():
@@ -136,6 +115,26 @@ def resumed():
     check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
 
 
+def killed_member():
+    """A member that the system ended, for want of memory mostly, says nothing of its settings: it is tried again."""
+    write("short.yaml", convergence("[1 mm, 0.5 mm, 0.05 mm]"))
+    process = subprocess.Popen(command("study", "short.yaml", "-j", 1), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, env=environment())
+    for line in process.stderr:
+        if "[2/3]" in line:
+            break
+    end, children = time.monotonic() + 30, []
+    while not children and time.monotonic() < end:
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()
+        time.sleep(0.005)
+    os.kill(int(children[0]), signal.SIGKILL)
+    out, error = process.communicate()
+    check(process.returncode == 4 and "ended by SIGKILL" in out and "1 members are left" in error, "a killed member is left",
+          out + error)
+    done = study("short")
+    check(done.returncode == 0 and "1 of 3 members to run" in done.stderr, "and run by the same command", done.text)
+
+
 def names():
     """A name is where results lie: no two members may share one, however alike they are told."""
     long = "{lagrangian_mesh: {failure: {action: erode, when: {plastic_strain: 1.0, jacobian: 0.05}}}}"
@@ -157,6 +156,9 @@ def failing_member():
     check(done.returncode == 0 and row["status"] == "failed" and "exit code 3: energy error" in row["reason"],
           "a failure is a row", row)
     check(f"Member {row['member']} failed" in done.stdout and row["velocity"] is None, "and is told")
+    done = study("limited")
+    check("to run" not in done.stderr and f"Member {row['member']} failed" in done.stdout,
+          "what failed by itself is told again, not run again", done.stderr)
 
 
 def budget():
@@ -229,7 +231,7 @@ def queue():
             subprocess.run(line, shell=True, check=True, capture_output=True)
     done = study("queued", "", "--collect")
     check(done.returncode == 4 and "1 members were not run" in done.stdout, "what is done is collected", done.text)
-    subprocess.run(lines[2], shell=True, check=True, capture_output=True)
+    subprocess.run(lines[2], shell=True, check=True, capture_output=True, cwd="/")
     done = study("queued", "", "--collect")
     check(done.returncode == 0 and answer("queued")["answer"]["measures"]["velocity"]["uncertainty"] > 0, "then all",
           done.text)
@@ -246,6 +248,10 @@ def bad_input():
              "bad.yaml:3: .*did you mean plate"),
             ("a key no scene has", base.replace("vary:", "set: {grid.cel: 1}\nvary:"),
              r"bad.yaml:3: .*did you mean cell"),
+            ("a value that is set and varied", base.replace("vary:", "set: {grid.cell: 1 mm}\nvary:"),
+             "bad.yaml:3: set/grid.cell: this study varies it"),
+            ("shifts of one cell", convergence("[1 mm, 0.95 mm, 0.9 mm]"), "bad.yaml:3: .*within 15 %"),
+            ("a cell that asks too much", convergence("[1 mm, 1e-6 mm]"), r"a million cells[^\n]*\(member cell=1e-06mm\)\n$"),
             ("an axis that is no cell", base.replace("grid.cell", "time.end"), "bad.yaml:3: vary/time.end: .*pareto"),
             ("one cell for an order", convergence("[1 mm]"), "bad.yaml:3: .*one cell has no order"),
             ("a value that is none", convergence("[1 mm, small]"), "bad.yaml:3: .*small"),
@@ -265,11 +271,16 @@ def bad_input():
             ("three constants", "study: calibrate\nscene: plate.yaml\nvary: {a: [1, 2], b: [1, 2], c: [1, 2]}\n"
              "truth: {velocity: {value: 1 m/s}}\n", "bad.yaml:3: vary: one or two"),
             ("shifts that the sides forbid", base + "repeats: 3\n", "bad.yaml:5: repeats: .*leave repeats out"),
+            ("one cell for a limit", LIMIT + "cells: [0.5 mm]\n", "bad.yaml:5: cells: two cells or more"),
+            ("a cell twice", LIMIT + "cells: [0.5 mm, 0.45 mm]\n", "bad.yaml:5: cells: .*15 %"),
             ("no outcome", "study: ballistic_limit\nscene: plate.yaml\noutcome: shot\nspeed: {}\n",
              "bad.yaml:3: outcome")):
         done = study("bad", text)
         check(done.returncode == 2 and re.search(words, done.stderr, re.S) and not done.stdout, f"refused: {what}",
               done.text[-300:])
+    done = study("three", "", "--set", "grid.cell=1 mm")
+    check(done.returncode == 2 and "--set grid.cell: this study varies it (three.yaml:3)" in done.text,
+          "what a study varies cannot be set", done.text)
     study("null", base.replace("[velocity]", "[gone]"))
     done = study("null")
     check(done.returncode == 2 and "'gone' has no value in any" in done.text, "a measure that is null everywhere",
@@ -287,41 +298,31 @@ def limit():
     check(done.returncode == 0 and 0 < high - low <= 40 and fates[high] and not fates[low], "the limit is bracketed",
           said)
     check(said["fit"] and low - 60 < said["fit"]["limit"] < high + 60, "and fitted", said.get("fit"))
+    check("give `cells: [...]`" in done.stdout, "of one cell, which the study says", done.stdout)
 
 
-def to_an_accuracy():
-    """krater run --accuracy: met, not to be had, refused; and what a plain run then knows of itself."""
-    plain = write("plain.yaml", SCENE)
-    done = krater("run", plain, "--accuracy", "3%", "-j", 2)
-    told = json.loads(pathlib.Path("plain_out/summary.json").read_text(encoding="utf-8"))
-    one = told["measures"]["velocity"]
-    check(done.returncode == 0 and told["accuracy"]["met"] and "gone has no value" in done.text, "3 % is reached",
-          done.text)
-    check(0 < one["uncertainty"] <= 0.03 * abs(one["value"]) and abs(one["value"] + 333.4) <= one["uncertainty"] and
-          one["uncertainty_from"], "with a band that holds the exact velocity", one)
-    cell = told["cell"]
-    shown = subprocess.run([ROOT / "tools/show_summary", "plain_out"], capture_output=True, text=True,
-                           check=False).stdout
-    check(re.search(r"velocity +-3\d\d\.?\d* +\d", shown), "show_summary shows it", shown)
-    done = krater("run", plain, "-o", "again_out", "--set", f"grid.cell={cell!r}")
-    check(re.search(r"velocity = -\d+\.?\d* \+- \d.* plain_out", done.text), "a plain run of that cell knows its error",
-          done.text)
-    done = krater("run", plain, "-o", "other_out", "--set", "grid.cell=0.2 mm")
-    check("of other cells" in done.text and "+-" not in done.text, "another cell does not", done.text)
-    done = krater("run", plain, "-o", "other_out", "--set", f"grid.cell={cell!r}", "--set", "time.end=0.9 us")
-    check("another state" in done.text and "velocity =" not in done.text, "nor another state of the scene", done.text)
-    os.mkdir("elsewhere")
-    done = krater("run", "plain.yaml", "-o", "elsewhere/out", "--set", "grid.cell=1 mm", "--quiet")
-    check("uncertainty" not in done.text, "--quiet says nothing of it", done.text)
-    done = krater("run", plain, "--accuracy", "0.1%", "--budget", "4s", "-o", "poor_out")
-    told = re.search("is not known to 0.1 %: ([0-9.]+ %|nothing) can be had at", done.stdout)
-    check((done.returncode == 5 and told) or (done.returncode == 4 and "members are left" in done.text) or
-          "no member is done" in done.text, "what cannot be had is said, and what can", done.text)
-    for words, what in ((("--accuracy", "0"), "no number of runs has no error"), (("--budget", "1s"), "--accuracy"),
-                        (("--accuracy", "2%", "--restart", "x.h5"), "goes on by itself"),
-                        (("--accuracy", "2%", "--set", "grid.box=1"), "grid.box")):
-        done = krater("run", plain, *words)
-        check(done.returncode == 2 and what in done.text, f"refused: {' '.join(words)}", done.text)
+def limit_by_cell():
+    """Limits of several cells, each found for itself; and of made-up ones, whether they answer the question."""
+    done = study("cells", LIMIT.replace("tolerance: 40", "tolerance: 150") + "cells: [0.5 mm, 1 mm]\n")
+    said = answer("cells")["answer"]
+    check(done.returncode == 0 and [one["cell"] for one in said["cells"]] == [1e-3, 5e-4], "coarse, then fine", said)
+    for one in said["cells"]:
+        fates = {speed: through for speed, _, through in one["shots"]}
+        low, high = one["bracket"]
+        check(0 < high - low <= 150 and fates[high] and not fates[low] and len(fates) >= 4, "each is bracketed by its own", one)
+    check(said["limit"] == 0.5 * sum(said["cells"][1]["bracket"]) and said["uncertainty"] == 137.5 and
+          re.search(r"By the cells 1, 0.5 mm the limit is .* \+- ", done.stdout), "and told together", done.stdout)
+    for what, limits, words in (
+            ("20, 40, 60 through a plate of 12 mm", (239, 209, 189), "do not answer to 2 %, and where it ends these cells do not"),
+            ("of first order", (240, 215, 206.7), r"0\.6, 0\.3, 0\.2 mm do not answer to 2 %; 0\.0\d+ mm should, about"),
+            ("within their intervals", (200, 201, 200.5), "Every one"),
+            ("settled", (201, 200.2, 200), r"Every one of these cells answers to 2 %"),
+            ("settled in the end", (240, 200.2, 200), r"^0\.6 mm does not answer to 2 %\."),
+            ("wavering", (200, 260, 190), "do not answer to 2 %, and where it ends")):
+        told = Answer()
+        by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1]} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
+                "m/s", (1e-9, -3.0, 1e-7))
+        check(re.search(words, told.sentences[-1]), f"{what}: {words}", told.sentences)
 
 
 def examples():
@@ -352,6 +353,7 @@ with Folder():
     names()
     files_of_a_study()
     resumed()
+    killed_member()
     failing_member()
     null_in_some()
     fates()
@@ -359,6 +361,6 @@ with Folder():
     queue()
     bad_input()
     limit()
-    to_an_accuracy()
+    limit_by_cell()
     examples()
 finish()

@@ -3,7 +3,8 @@
 
 Four times and twice the scene's cell, then on by what the values show: the band falls as cell^q (uncertainty.py), the
 cost as power law of the cells that were run, so the cell that should reach the target and its price are said before it
-is run. Each refinement is at most twofold: an order seen at coarse cells is not believed further. The finest run's
+is run. What the budget cannot pay is not begun: a rim thinner than the cells would take all of it and be known no better.
+Each refinement is at most twofold: an order seen at coarse cells is not believed further. The finest run's
 results are those of the folder, its summary.json says of every measure the uncertainty and how it was found; the other
 cells lie in members/."""
 
@@ -11,6 +12,7 @@ import argparse
 import math
 import os
 import shutil
+import time
 
 import numpy as np
 
@@ -22,6 +24,7 @@ from uncertainty import estimate, levels_of
 BUDGET = 20 * 60  # [s]
 STARTS = (4.0, 2.0)  # of the scene's cell
 SMALLEST_STEP = 1.25
+SURE = 4  # cells, after which a price beyond the budget is believed
 BLIND = 5  # cells, after which values that waver are not followed further
 
 
@@ -33,7 +36,8 @@ def options(words):
     parser.add_argument("-o", "--output")
     parser.add_argument("--budget")
     parser.add_argument("--set", action="append", default=[])
-    return parser.parse_args(words)
+    # A share below 0 is a share, not an option: it is refused with the reason.
+    return parser.parse_args([" " + word if word.startswith("-") and k == 1 else word for k, word in enumerate(words)])
 
 
 def target_of(text):
@@ -43,7 +47,7 @@ def target_of(text):
     except ValueError:
         value = math.nan
     if not 0 < value < 1:
-        raise InputError(f"--accuracy {text}: a share between 0 and 1 is expected, as 2%; no number of runs has no "
+        raise InputError(f"--accuracy {text.strip()}: a share between 0 and 1 is expected, as 2%; no number of runs has no "
                          f"error")
     return value
 
@@ -92,8 +96,8 @@ class Accuracy(Convergence):
         levels = len(levels_of(np.array([row.cell for row in done])))
         if levels >= 3:
             unmet = {name: found for name, found in self.unmet(done).items() if found.known}
-            wanted = self.foretell(unmet, finest)
-            if not unmet or (wanted is None and levels >= BLIND):
+            wanted, dear = self.foretell(unmet, done, levels)
+            if not unmet or (wanted is None and (dear or levels >= BLIND)):
                 return []
             wanted = min(max(wanted or 0, finest / 2), finest / SMALLEST_STEP)
             one = self.member(wanted)
@@ -112,17 +116,32 @@ class Accuracy(Convergence):
         return {name: found for name, found in self.bands(done).items()
                 if not found.known or found.uncertainty > self.target * abs(found.value)}
 
-    def foretell(self, unmet, finest):
-        """The cell, in the scene's unit, that should bring all measures that refinement helps to the target; None: no
-        refinement is seen to help."""
-        cells = {name: finest * (self.target * abs(found.value) / found.uncertainty) ** (1 / found.falls_as)
-                 for name, found in unmet.items() if found.falls_as and found.value}
-        if not cells:
+    def needed(self, found, finest):
+        """The cell that should bring a measure to the target, in the unit of `finest`; None: no refinement is seen to
+        help."""
+        if not (found.falls_as and found.value):
             return None
-        least = min(cells.values())
-        self.engine.say(f"krater run: {least:.4g} {self.own.unit} should bring {', '.join(cells)} to "
+        return finest * (self.target * abs(found.value) / found.uncertainty) ** (1 / found.falls_as)
+
+    def foretell(self, unmet, done, levels):
+        """(the cell, in the scene's unit, that should bring to the target all measures that refinement helps and that
+        the budget can pay, or None; whether others are too dear for it)."""
+        finest = min(self.number(row) for row in done)
+        scale = min(row.cell for row in done) / finest
+        cells = {name: cell for name, found in unmet.items() if (cell := self.needed(found, finest))}
+        paid = {name: cell for name, cell in cells.items() if levels < SURE or self.can_pay(done, scale * cell)}
+        if not paid:
+            return None, bool(cells)
+        least = min(paid.values())
+        self.engine.say(f"krater run: {least:.4g} {self.own.unit} should bring {', '.join(paid)} to "
                         f"{100 * self.target:g} %")
-        return least
+        return least, len(paid) < len(cells)
+
+    def can_pay(self, done, cell):
+        """Does what is left of the budget pay for a cell [m] on all cores?"""
+        law = self.cost_law(done)
+        left = self.engine.deadline - time.monotonic()
+        return law is None or law[2] * law[0] * cell ** law[1] <= left * self.engine.jobs
 
     def answer(self, rows):
         answer = super().answer(rows)
@@ -133,8 +152,8 @@ class Accuracy(Convergence):
         for name, found in unmet.items():
             value = f"{100 * found.uncertainty / abs(found.value):.2g} %" if found.known and found.value else "nothing"
             line = f"{name} is not known to {100 * self.target:g} %: {value} can be had at {1e3 * finest:.4g} mm"
-            if found.known and found.falls_as and found.value and law:
-                cell = finest * (self.target * abs(found.value) / found.uncertainty) ** (1 / found.falls_as)
+            cell = self.needed(found, finest) if found.known else None
+            if cell and law:
                 price = text_of(law[2] * law[0] * cell ** law[1])
                 line += f"; {1e3 * cell:.3g} mm should reach it in about {price} of core time"
             elif found.known:

@@ -47,6 +47,18 @@ def with_band(value, band, unit):
     return f"{value:.{digits}g} +- {band:.2g} {unit}".strip()
 
 
+def short_names(paths):
+    """{path: the least of its end that tells it from the others}: materials.copper.strength.johnson_cook.A -> A. Whole
+    paths push what was found out of the page."""
+    def end(path, parts):
+        return ".".join(path.split(".")[-parts:])
+    names = {}
+    for path in paths:
+        names[path] = next(end(path, parts) for parts in range(1, path.count(".") + 2)
+                           if sum(end(other, parts) == end(path, parts) for other in paths) == 1)
+    return names
+
+
 def number(value, digits=4):
     return "-" if value is None or not math.isfinite(value) else f"{value:.{digits}g}"
 

@@ -3,6 +3,7 @@
 to answer with, 4 stopped before its end (the same command goes on), 5 an accuracy that was not reached."""
 
 import argparse
+import dataclasses
 import fcntl
 import hashlib
 import os
@@ -21,7 +22,7 @@ from study_file import InputError, Study, flow, load, seconds
 KINDS = {"convergence": Convergence, "pareto": Pareto, "ablation": Ablation, "sweep": Sweep,
          "ballistic_limit": BallisticLimit, "calibrate": Calibrate}
 # What makes the members; the rest of a study file only asks of them, and may change.
-MAKES = ("set", "truth", "vary", "repeats", "effects", "design", "seed", "outcome", "speed")
+MAKES = ("set", "truth", "vary", "repeats", "effects", "design", "seed", "outcome", "speed", "cells")
 DONE, BAD_INPUT, NOTHING, STOPPED, WARNED = 0, 2, 3, 4, 5
 
 
@@ -34,9 +35,9 @@ def options(words):
         prog="krater study", description="Many runs of one scene: convergence, pareto, ablation, sweep, "
         "ballistic_limit, "
         "calibrate (inputs/studies/ has an example of each). A study goes on from what lies in its folder.")
-    parser.add_argument("file", help="study file (YAML)")
+    parser.add_argument("file", help="study file (YAML), or template of a report of several (Markdown, .md)")
     parser.add_argument("-j", type=int, default=os.cpu_count(), metavar="N", help="cores (default: all)")
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: FILE_study)")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder (default: FILE_study; of a report FILE_report)")
     parser.add_argument("--budget", metavar="TIME", help="wall time, as 20min; what does not fit is left for another "
                         "time")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
@@ -145,7 +146,7 @@ def foretell(engine, members):
     count, core, memory = engine.estimate(members)
     if not count:
         return
-    cheapest = min(engine.seconds(one) for one in members if not engine.row(one).done)
+    cheapest = min(engine.seconds(one) for one in members if engine.row(one).status not in ("done", "failed"))
     if engine.budget and not engine.measured and cheapest / engine.jobs > engine.budget:
         raise InputError(f"budget: {text_of(engine.budget)} is below one run: the cheapest member takes about "
                          f"{text_of(cheapest)}; "
@@ -155,68 +156,96 @@ def foretell(engine, members):
         f"{', by what was measured' if engine.measured else ', by the forecast of krater check'}")
 
 
+@dataclasses.dataclass
+class Asked:
+    """A study with what it has found so far."""
+    study: Study
+    question: object
+    engine: Engine
+    folder: str
+    rows: list = dataclasses.field(default_factory=list)
+    more: bool = False  # would be run
+
+
+def ask(study, question, folder, jobs, budget, run=True):
+    """Runs what the question wants (`run`), or reads what is done. A budget of 0 s, that others have used up, leaves all;
+    one below one run is an error."""
+    held = lock(folder)
+    require_same(study, folder)
+    engine = question.engine = Engine(study.scene, folder, study.fixed(), jobs, study.threads, budget, say)
+    asked = Asked(study, question, engine, folder)
+    try:
+        asked.rows, asked.more = gather(question, engine, run and budget != 0)
+    except InputError as error:
+        raise locate(study, error) from None
+    held.close()
+    return asked
+
+
+def budget_of(given, otherwise=None):
+    """Of --budget, else of the file."""
+    if given.budget is None:
+        return otherwise
+    budget = seconds(given.budget)
+    if budget is None or budget <= 0:
+        raise InputError(f"--budget {given.budget}: a time above 0 is expected, as 20min")
+    return budget
+
+
 def run_study(words):
     given = options(words)
     if given.j < 1:
         raise InputError("-j: at least one core is needed")
+    if given.file.endswith(".md"):
+        import report  # here, not above: it asks studies by this module
+        return report.run(given)
     study = Study(given.file, given.set)
-    question = KINDS[study.kind](study)
-    budget = study.budget if given.budget is None else seconds(given.budget)
-    if given.budget is not None and (budget is None or budget <= 0):
-        raise InputError(f"--budget {given.budget}: a time above 0 is expected, as 20min")
+    budget = budget_of(given, study.budget)
     folder = given.output or os.path.splitext(os.path.basename(given.file))[0] + "_study"
-    held = lock(folder)
-    require_same(study, folder)
-    engine = Engine(study.scene, folder, study.fixed(), given.j, study.threads, budget, say)
     try:
-        if given.list:
-            return print_list(question, engine)
-        rows, more = gather(question, engine, not given.collect)
-    except InputError as error:
-        raise locate(study, error) from None
+        asked = ask(study, KINDS[study.kind](study), folder, given.j, budget, not (given.list or given.collect))
+        return print_list(asked) if given.list else tell(asked)
     except KeyboardInterrupt:
         say(f"krater study: interrupted; what is done lies in {folder}; the same command goes on")
         return STOPPED
-    held.close()
-    return tell(study, question, rows, folder, more)
 
 
 def run_accuracy(words):
     study, question, folder, jobs, budget = accuracy.prepare(words)
-    held = lock(folder)
-    require_same(study, folder)
-    engine = question.engine = Engine(study.scene, folder, study.fixed(), jobs, 1, budget, say)
     try:
-        rows, more = gather(question, engine, True)
+        asked = ask(study, question, folder, jobs, budget)
     except KeyboardInterrupt:
         say(f"krater run: interrupted; what is done lies in {folder}; the same command goes on")
         return STOPPED
-    held.close()
-    code = tell(study, question, rows, folder, more)
-    if not any(row.done for row in rows):
+    code = tell(asked)
+    if not any(row.done for row in asked.rows):
         return code
-    answer = question.answer(rows)
-    accuracy.publish(folder, rows, answer)
+    answer = question.answer(asked.rows)
+    accuracy.publish(folder, asked.rows, answer)
     return DONE if answer.data["met"] else WARNED
 
 
-def print_list(question, engine):
+def print_list(asked):
     """One line per member for GNU parallel, a SLURM array or any queue."""
-    rows, _ = gather(question, engine, False)
-    waiting = [row.member for row in rows if not row.done and row.status != "failed"]
-    engine.check(waiting)
+    waiting = [row.member for row in asked.rows if not row.done and row.status != "failed"]
+    try:
+        asked.engine.check(waiting)
+    except InputError as error:
+        raise locate(asked.study, error) from None
     for one in waiting:
-        print(engine.shell_line(one))
+        print(asked.engine.shell_line(one))
     return DONE
 
 
-def tell(study, question, rows, folder, more):
-    done = [row for row in rows if row.done]
+def conclude(asked):
+    """(answer, page) of members that are done, written into the folder; (None, None) where none is."""
+    study, done = asked.study, [row for row in asked.rows if row.done]
     if not done:
-        for row in rows:
+        for row in asked.rows:
             say(f"krater study: {row.member.name} {row.status}: {row.reason or 'not run'}")
-        say(f"krater study: no member is done, so there is nothing to answer with; logs lie in {folder}/members")
-        return STOPPED if more else NOTHING
+        say(f"krater study: no member is done, so there is nothing to answer with; logs lie in "
+            f"{asked.folder}/members")
+        return None, None
     for name in list(study.measures):
         if all(row.measure(name) is None for row in done):
             if study.kind == "accuracy" and len(study.measures) > 1:
@@ -224,23 +253,32 @@ def tell(study, question, rows, folder, more):
                 say(f"krater run: {name} has no value in any run; it is left out")
                 continue
             study.fail("measures", f"'{name}' has no value in any of the {len(done)} members that are done (the body "
-                       f"is gone, or "
-                       "the outcome is open); leave it out, or change `time.end`")
-    answer = question.answer(rows)
-    answer.sentences += missing_sentences(rows, study.measures)
-    page = results.write(folder, study, rows, answer)
+                       f"is gone, or the outcome is open); leave it out, or change `time.end`")
+    answer = asked.question.answer(asked.rows)
+    answer.sentences += missing_sentences(asked.rows, study.measures)
+    return answer, results.write(asked.folder, study, asked.rows, answer)
+
+
+def tell(asked):
+    answer, page = conclude(asked)
+    if answer is None:
+        return STOPPED if asked.more else NOTHING
     for line in answer.sentences:
         print(line)
     for table in answer.tables:
         print(f"\n{table.caption}")
         for line in aligned([table.titles, *table.rows]):
             print("  " + line)
+    tell_left(asked.rows)
+    say(f"krater study: {page}")
+    return STOPPED if asked.more else DONE
+
+
+def tell_left(rows):
     left = [row for row in rows if row.status in ("left", "interrupted")]
     if left:
         say(f"krater study: {len(left)} members are left ({', '.join(row.member.name for row in left[:5])}"
             f"{', ...' if len(left) > 5 else ''}); the same command goes on")
-    say(f"krater study: {page}")
-    return STOPPED if more else DONE
 
 
 def aligned(rows):

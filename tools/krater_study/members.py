@@ -77,7 +77,7 @@ def name_of(values):
     it would be too long for a folder, it ends with a digest of them: a name is where results are kept, and two members
     with one name would be given one result."""
     keys = [path.rsplit(".", 1)[-1] for path in values]
-    words = [re.sub(r"[^A-Za-z0-9.+-]", "", text) for text in values.values()]
+    words = [re.sub(r"[^A-Za-z0-9_.+-]", "", text) for text in values.values()]
     name = ",".join(f"{key}={word}" for key, word in zip(keys, words))
     # Two values of a key that differ by a slash would not have the same dimension.
     whole = all(word == text.translate(str.maketrans("", "", " /")) for word, text in zip(words, values.values()))
@@ -114,7 +114,8 @@ class Engine:
         return os.path.join(self.folder, "members", name + ending)
 
     def command(self, one, threads=None):
-        words = [KRATER, "run", self.scene, "-o", self.place(one.name), "-j", str(threads or self.threads), "--quiet"]
+        words = [KRATER, "run", os.path.abspath(self.scene), "-o", os.path.abspath(self.place(one.name)), "-j",
+                 str(threads or self.threads), "--quiet"]  # a queue may run it from anywhere
         for text in (*self.fixed, *one.settings):
             words += ["--set", text]
         return words
@@ -130,6 +131,9 @@ class Engine:
         if status == "done":
             row.status, row.cost = "done", self.cost(row.summary, told)
             self.measured[one.name] = row.cost["core_seconds"]
+        elif told.get("status") == "killed":
+            row.status, row.summary = "interrupted", {}
+            row.reason = f"{told.get('reason')} (is memory short?); the same command tries it again"
         elif told.get("status") == "failed" or status == "failed":
             row.status, row.cost = "failed", told.get("cost", {})
             row.reason = told.get("reason") or str(row.summary.get("message", "failed"))
@@ -143,11 +147,15 @@ class Engine:
     def cost(summary, told):
         machine = summary.get("machine", {})
         wall = machine.get("wall_seconds", 0.0)
-        return {"core_seconds": told.get("core_seconds", wall * machine.get("threads", 1)),
+        # Of processors, never of the clock on the wall: beside others a run takes several times as long, and a price
+        # that is foretold from that would be as wrong.
+        core = told.get("core_seconds", machine.get("processor_seconds", wall * machine.get("threads", 1)))
+        setup = machine.get("seconds_outside_steps", {}).get("setup", 0.0)
+        return {"core_seconds": core,
                 "wall_seconds": told.get("wall_seconds", wall), "points": summary.get("points", 0),
                 "steps": summary.get("steps", 0), "point_steps": summary.get("points", 0) * summary.get("steps", 0),
                 "bytes": machine.get("peak_resident_bytes", 0), "threads": machine.get("threads", 1),
-                "stepping_seconds": wall * machine.get("threads", 1)}
+                "stepping_seconds": core * (wall / (wall + setup) if wall else 1.0)}
 
     # ---- what it will cost
 
@@ -166,7 +174,10 @@ class Engine:
             for one, child in children:
                 out, error = child.communicate()
                 if child.returncode == 2:
-                    raise InputError(error.strip())
+                    for _, other in children:
+                        other.kill()
+                    said = "\n".join(dict.fromkeys(error.strip().split("\n")))
+                    raise InputError(said if said.startswith("--set ") else f"{said} (member {one.name})")
                 found = ESTIMATE.search(out)
                 self.forecasts[one.name] = (0, 0)
                 if found:
@@ -182,7 +193,7 @@ class Engine:
 
     def estimate(self, members):
         """(members to run, core seconds, greatest memory)."""
-        waiting = [one for one in members if not self.row(one).done]
+        waiting = [one for one in members if self.row(one).status not in ("done", "failed")]
         return (len(waiting), sum(self.seconds(one) for one in waiting),
                 max((self.forecasts.get(one.name, (0, 0))[0] for one in waiting), default=0))
 
@@ -250,6 +261,8 @@ class Engine:
             told["status"] = "interrupted"
         elif child.code:
             told["reason"] = child.reason()
+            if child.code == -signal.SIGKILL:  # nothing a run does by itself: the system's memory, or somebody
+                told["status"] = "killed"
         write_json(self.place(child.one.name, ".json"), told)
         return self.row(child.one)
 

@@ -12,7 +12,7 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 9, "axes.edgecolor": GREY, "
          "text.color": INK,
          "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False,
          "axes.titlesize": 10,
-         "axes.titlelocation": "left", "axes.grid": True, "grid.color": "#e6eaee", "legend.frameon": False,
+         "axes.titlelocation": "left", "axes.grid": True, "axes.axisbelow": True, "grid.color": "#e6eaee", "legend.frameon": False,
          "svg.fonttype": "none", "svg.hashsalt": "krater", "figure.constrained_layout.use": True}
 
 
@@ -71,17 +71,27 @@ def cost(figure, curves):
         pairs = sorted((t, 100 * abs(v / best - 1)) for t, v in zip(c["core_seconds"], c["values"]) if v is not None)
         pairs = [(t, e) for t, e in pairs if e > 0 and t > 0]
         if pairs:
-            axes.loglog(*zip(*pairs), "o", ms=5, mec="white", label=name, color=f"C{k}")
+            axes.loglog(*zip(*pairs), "o-", ms=5, lw=0.6, mec="white", label=name, color=f"C{k}")
     for target in (5, 2, 1, 0.5):
         axes.axhline(target, color=GREY, lw=0.6, ls=":")
+        axes.annotate(f"{target:g} %", (1, target), xycoords=("axes fraction", "data"), fontsize=6.5, color=GREY,
+                      ha="right", va="bottom")
     axes.set_xlabel("core-seconds")
     axes.set_ylabel("distance to the limit [%]")
     if axes.lines:
         axes.legend(fontsize=8)
 
 
+def plain_ticks(axis):
+    """0.1 0.2 0.5 1: powers of ten with a 2 x before them are hard to read."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.set_minor_formatter(NullFormatter())
+
+
 def front(figure, clouds):
-    """clouds: measure -> {cost, error [%], labels, front: indices}."""
+    """clouds: measure -> {cost, error [%], labels, front: indices, known: error of the truth [%]}."""
     for axes, (name, c) in zip(grid(figure, len(clouds)), clouds.items()):
         t, e = np.asarray(c["cost"], float), np.maximum(np.asarray(c["error"], float), 1e-4)
         axes.loglog(t, e, "o", color=GREY, ms=4.5, mec="white")
@@ -90,6 +100,10 @@ def front(figure, clouds):
         for i in on:
             axes.annotate(c["labels"][i], (t[i], e[i]), xytext=(4, 4), textcoords="offset points", fontsize=6.5,
                           color=INK)
+        if c["known"]:
+            axes.axhspan(axes.get_ylim()[0], c["known"], color=RED, alpha=0.1, lw=0)
+        plain_ticks(axes.xaxis)
+        plain_ticks(axes.yaxis)
         axes.set_title(name)
         axes.set_xlabel("core-seconds")
         axes.set_ylabel("error [%]")

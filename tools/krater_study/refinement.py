@@ -32,6 +32,9 @@ class Convergence:
         for a, b in zip(self.cells, self.cells[1:]):
             if a.unit != b.unit or a.number == b.number:
                 study.fail(f"vary/{CELL}", "cells differ, and are given in one unit")
+        if len(levels_of(np.array([cell.number for cell in self.cells]))) < 2:
+            study.fail(f"vary/{CELL}", "cells within 15 % of each other are one cell whose lattice is shifted, which has "
+                       "no order: give three or more, each about half of the one before")
         self.repeats = study.count("repeats", 1, len(SHIFTS))
 
     @staticmethod
@@ -52,7 +55,7 @@ class Convergence:
         law = self.cost_law(done)
         table = Table("What is known of each measure", ["measure", "answer", "of it", "order", "how", "small cells"],
                       [])
-        costs = Table("Core-seconds of the cheapest cell for an uncertainty",
+        costs = Table("Core time of the cheapest cell for an uncertainty",
                       ["measure", *(f"{100 * target:g} %" for target in TARGETS)], [])
         curves = {}
         for name in self.study.measures:
@@ -69,10 +72,10 @@ class Convergence:
             "point_steps_at_1m": law[0], "power_of_cell": law[1], "core_seconds_per_point_step": law[2]}}
         if law:
             answer.sentences.append(f"Point-steps grow as cell^{law[1]:.2f}: half the cell takes {2 ** -law[1]:.1f} "
-                                    f"times as many, {1e9 * law[2]:.3g} ns of a core each.")
+                                    f"times as many, {1e9 * law[2]:.0f} ns of a core each.")
         answer.tables = [table, costs]
         answer.pictures = [Picture("convergence", "Each measure against the cell; the shaded band is where its limit "
-                                   "of small cells lies in nine of ten cases.",
+                                   "of small cells lies in nine of ten cases; red: the reference.",
                                    lambda figure: pictures.convergence(figure, curves)),
                            Picture("cost", "Distance to the limit against cost.",
                                    lambda figure: pictures.cost(figure, curves))]
@@ -130,7 +133,7 @@ class Convergence:
         good = [row for row in done if found.uncertainty + abs(row.measure(name) - found.value) <= allowed]
         if good:
             row = max(good, key=lambda row: row.cell)
-            return f"{number(row.cost['core_seconds'], 2)} ({1e3 * row.cell:.3g} mm)"
+            return f"{text_of(row.cost['core_seconds'])} ({1e3 * row.cell:.3g} mm)"
         if found.falls_as is None or law is None:
             return "not by refinement"
         cell = min(row.cell for row in done) * (allowed / found.uncertainty) ** (1 / found.falls_as)

@@ -118,8 +118,10 @@ def write(folder, study, rows, answer):
     made = {"title": study.title, "kind": study.kind, "scene": study.scene, "study": study.path, "program": version(),
             "date": datetime.datetime.now().strftime("%Y-%m-%d %H:%M"), "machine": machine()}
     revisions = sorted({row.summary.get("program", {}).get("revision", "?") for row in rows if row.done})
-    if len(revisions) > 1:
-        answer.sentences.append(f"Members are of several revisions of krater: {', '.join(revisions)}.")
+    if any(f"({revision}," not in made["program"] for revision in revisions):
+        answer.sentences.append(f"Members were made by {'several revisions' if len(revisions) > 1 else 'revision'} "
+                                f"{', '.join(revisions)} of krater, and this page by {made['program']}: choose another "
+                                "folder with -o to make them anew.")
     table = columns(rows, study.measures)
     write_csv(os.path.join(folder, "study.csv"), table)
     write_h5(os.path.join(folder, "study.h5"), table, made)

@@ -17,9 +17,11 @@ from scipy.optimize import curve_fit, minimize, minimize_scalar
 from scipy.special import stdtrit
 
 import pictures
-from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled
-from members import member
+from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled, short_names
+from members import member, text_of
+from refinement import CELL, Convergence
 from study_file import Block, InputError
+from uncertainty import estimate, levels_of
 
 TOLERANCE = 0.01  # of the speed
 
@@ -50,9 +52,30 @@ class BallisticLimit:
                 study.fail("speed/tolerance", f"a speed above 0 in {self.low.unit} is expected")
             self.tolerance = given.number
         self.most = study.count("members", 20, 1000)
+        self.cells = self.read_cells(study)
 
-    def shot(self, speed):
-        return member({self.path: self.low.text(speed)})
+    @staticmethod
+    def read_cells(study):
+        """[None] where the scene's own cell is meant, else the texts of several, to be searched one by one."""
+        if "cells" not in study.keys:
+            return [None]
+        cells = study.keys["cells"]
+        if not isinstance(cells, list) or len(cells) < 2:
+            study.fail("cells", "two cells or more are expected, each about half of the one before; for one alone set "
+                       f"{CELL}")
+        if CELL in study.settings:
+            study.fail("cells", f"this study sets {CELL} for all members; take one of them away")
+        found = [study.quantity(text, "cells") for text in cells]
+        if len({cell.unit for cell in found}) > 1 or len(levels_of(np.array([cell.number for cell in found]))) < len(found):
+            study.fail("cells", "cells in one unit, each more than 15 % from every other, are expected")
+        return [cell.text() for cell in sorted(found, key=lambda cell: -cell.number)]
+
+    def shot(self, speed, cell=None):
+        values = {self.path: self.low.text(speed)}
+        return member(values if cell is None else {**values, CELL: cell})
+
+    def of_cell(self, rows, cell):
+        return [row for row in rows if row.member.values.get(CELL) == cell]
 
     def speed(self, row):
         return float(row.member.values[self.path].split()[0])
@@ -76,63 +99,115 @@ class BallisticLimit:
         return max(stopped) if stopped else None, high
 
     def next(self, rows):
+        """Cells do not wait for each other: their shots run side by side."""
+        return [one for cell in self.cells for one in self.next_of(self.of_cell(rows, cell), cell)]
+
+    def next_of(self, rows, cell):
         if not rows:
-            return [self.shot(self.low.number), self.shot(self.high.number)]
+            return [self.shot(self.low.number, cell), self.shot(self.high.number, cell)]
         low, high = self.bracket(rows)
         if low is None or high is None or high - low <= self.tolerance or len(rows) >= self.most:
-            return self.for_the_fit(rows, low, high)
-        middle = self.shot(float(f"{0.5 * (low + high):.6g}"))
+            return self.for_the_fit(rows, low, high, cell)
+        middle = self.shot(float(f"{0.5 * (low + high):.6g}"), cell)
         if middle.name in [row.member.name for row in rows]:  # it told nothing: no narrower interval is to be had
-            return self.for_the_fit(rows, low, high)
+            return self.for_the_fit(rows, low, high, cell)
         return [middle]
 
-    def for_the_fit(self, rows, low, high):
+    def for_the_fit(self, rows, low, high, cell):
         """A fit of one perforation says nothing: more shots between the limit and the fastest."""
         if low is None or high is None:
             return []
         have = [row.member.name for row in rows]
         through = sum(self.perforated(row) is True for row in rows if row.done)
-        wanted = [self.shot(float(f"{high + share * (self.high.number - high):.6g}")) for share in (0.25, 0.5, 0.1)]
+        wanted = [self.shot(float(f"{high + share * (self.high.number - high):.6g}"), cell) for share in (0.25, 0.5, 0.1)]
         new = [one for one in wanted if one.name not in have]
         return new[:1] if through < 4 and new and len(rows) < self.most else []
 
     def answer(self, rows):
+        """Of one cell: its bracket and fit. Of several: those of each, and what they say of each other."""
         answer = Answer(failed_sentences(rows))
+        found = [self.limit_of(answer, self.of_cell(rows, cell), cell) for cell in self.cells]
+        if len(found) == 1:
+            answer.data |= found[0]
+        else:
+            answer.data = {"unit": self.low.unit, "cells": found}
+            by_cell(answer, found, self.low.unit, Convergence.cost_law([row for row in rows if row.done]))
+        return answer
+
+    def limit_of(self, answer, rows, cell):
+        """{bracket, shots, fit, unit} of a cell, told in `answer`."""
         done = [row for row in rows if row.done]
         low, high = self.bracket(rows)
-        unit = self.low.unit
+        unit, at = self.low.unit, f"{cell}: " if cell else ""
         shots = [(self.speed(row), row.measure(f"{self.outcome}.residual_speed") or 0.0, self.perforated(row))
                  for row in done]
-        answer.tables = [Table("Shots", [f"speed {unit}", "what became of it", "residual m/s", "core-seconds"],
-                               [[number(self.speed(row), 5), self.word(row),
-                                 number(row.measure(f"{self.outcome}.residual_speed"), 4),
-                                 number(row.cost["core_seconds"], 3)] for row in sorted(done, key=self.speed)])]
+        answer.tables.append(Table(f"Shots{f', cell {cell}' if cell else ''}", [
+            f"speed {unit}", "what became of it", "residual m/s", "core-seconds"],
+            [[number(self.speed(row), 5), self.word(row), number(row.measure(f"{self.outcome}.residual_speed"), 4),
+              number(row.cost["core_seconds"], 3)] for row in sorted(done, key=self.speed)]))
         for row in done:
             if self.perforated(row) is None:
-                word = self.word(row)
-                answer.sentences.append(f"At {number(self.speed(row), 5)} {unit} the run tells nothing ({word}); a "
-                                        f"later "
-                                        "time.end, or time: {stop_when: {settled: ...}}, would.")
-        answer.data = {"bracket": [low, high], "unit": unit, "shots": shots}
+                answer.sentences.append(f"{at}At {number(self.speed(row), 5)} {unit} the run tells nothing "
+                                        f"({self.word(row)}); a later time.end, or time: {{stop_when: {{settled: ...}}}}, "
+                                        "would.")
         fit = None
         if low is None or high is None:
             missing = "perforated" if high is None else "was stopped"
-            answer.sentences.append(f"No shot between {self.low.text()} and {self.high.text()} {missing}: the limit "
-                                    f"lies "
-                                    f"{'above' if high is None else 'below'} this interval. Widen speed.between.")
+            answer.sentences.append(f"{at}No shot between {self.low.text()} and {self.high.text()} {missing}: the limit "
+                                    f"lies {'above' if high is None else 'below'} this interval. Widen speed.between.")
         else:
-            answer.sentences.append(f"The limit lies between {low:.5g} and {high:.5g} {unit}: the fastest that was "
-                                    f"stopped, the "
-                                    "slowest that perforated. That holds for this cell only: refine it and look again.")
+            alone = "" if cell else (" That holds for this cell only: give `cells: [...]`, some of them finer, and this "
+                                     "study tells whether it answers the question.")
+            answer.sentences.append(f"{at}The limit lies between {low:.5g} and {high:.5g} {unit}: the fastest that was "
+                                    f"stopped, the slowest that perforated.{alone}")
             fit = recht_ipson([(v, r) for v, r, p in shots if p], low, high)
-            answer.sentences += fit_sentences(fit, low, high, unit)
-            answer.data["fit"] = fit
+            answer.sentences += [at + line for line in fit_sentences(fit, low, high, unit)]
         drawn = [(v, r if p else 0.0, p) for v, r, p in shots if p is not None]
         if drawn:
-            answer.pictures = [Picture("limit", "Residual against impact speed; the band is the fit's confidence "
-                                       "interval.",
-                                       lambda figure: pictures.limit(figure, drawn, fit, unit))]
-        return answer
+            name = "limit" if cell is None else f"limit_{cell.replace(' ', '')}"
+            answer.pictures.append(Picture(
+                name, f"{at}Residual against impact speed; the band is the fit's confidence interval.",
+                lambda figure: pictures.limit(figure, drawn, fit, unit)))
+        return {"cell": next((row.cell for row in done), None), "bracket": [low, high], "unit": unit, "shots": shots,
+                "fit": fit}
+
+
+TARGET = 0.02  # of the limit: what an answer by several cells is measured by
+
+
+def by_cell(answer, found, unit, law):
+    """Do these cells answer the question, and what would? The intervals of the shots are an error of their own."""
+    known = [one for one in found if None not in one["bracket"]]
+    cells, limits = [one["cell"] for one in known], [0.5 * sum(one["bracket"]) for one in known]
+    answer.tables.append(Table("Limit by cell", ["cell mm", f"limit {unit}", f"bracket {unit}"], [
+        [number(1e3 * cell), number(limit), f"{one['bracket'][0]:.5g} to {one['bracket'][1]:.5g}"]
+        for cell, limit, one in zip(cells, limits, known)]))
+    if len(known) < 2:
+        answer.sentences.append("Fewer than two cells have a limit: nothing is known of the error of the cell.")
+        return
+    result, width = estimate(cells, limits), max(high - low for low, high in (one["bracket"] for one in known))
+    band = result.uncertainty + 0.5 * width
+    if np.ptp(limits) < width:
+        band = width
+        result.behaviour, result.order = "differs by less than its intervals are wide (a smaller speed.tolerance tells more)", None
+    answer.data |= {"limit": result.value, "uncertainty": band, "how": result.how}
+    told = ", ".join(number(limit) for limit in limits)
+    answer.sentences.append(f"By the cells {', '.join(number(1e3 * cell) for cell in cells)} mm the limit is {told} {unit}: it "
+                            f"{result.how}, and lies at {result.value:.4g} +- {band:.2g} {unit}.")
+    allowed = TARGET * abs(result.value)
+    far = [number(1e3 * cell) for cell, limit in zip(cells, limits) if abs(limit - result.value) + band > allowed]
+    if not far:
+        answer.sentences.append(f"Every one of these cells answers to {100 * TARGET:g} %.")
+        return
+    line = f"{', '.join(far)} mm do{'es' if len(far) == 1 else ''} not answer to {100 * TARGET:g} %"
+    if len(far) == len(cells) and result.falls_as:
+        cell = min(cells) * (allowed / band) ** (1 / result.falls_as)
+        price = f", about {text_of(law[2] * law[0] * cell ** law[1])} of core time a shot" if law else ""
+        line += f"; {1e3 * cell:.2g} mm should{price}"
+    elif len(far) == len(cells):
+        line += (", and where it ends these cells do not show: halve the finest again, or give the law that softens a length "
+                 "(resolution.md of the manual)" if len(cells) > 2 else "; a third cell would tell what does")
+    answer.sentences.append(line + ".")
 
 
 def recht_ipson(shots, low, high):
@@ -267,7 +342,9 @@ class Calibrate:
             answer.sentences.append(f"Even the best misses the truth by {residuals[0]:.2g} of its uncertainties: these "
                                     f"constants "
                                     "alone do not reproduce it.")
-        table = Table("Trials, the best first", [*values, "residual", *self.study.measures],
+        units = {name: scaled(best.unit(name))[1] for name in self.study.measures}
+        table = Table("Trials, the best first", [*short_names(list(values)).values(), "residual",
+                                                 *(f"{name} {unit}".strip() for name, unit in units.items())],
                       [[*row.member.values.values(), number(r, 3), *(number(scaled(row.unit(n))[0] * row.measure(n), 5)
                                                                      for n in self.study.measures)]
                        for row, r in zip(done, residuals)])

@@ -6,11 +6,13 @@ import itertools
 import numpy as np
 
 import pictures
-from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled
-from members import Member, member
+from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled, short_names
+from members import Member, member, text_of
 from study_file import Block, flow
 
 MOST = 10000  # members of a grid
+CELL = "grid.cell"
+TARGETS = (5, 2, 1, 0.5)  # % of error that a price is told of
 
 
 def axes_of(study, key="vary", crossed=True):
@@ -76,7 +78,9 @@ class Pareto:
             known = 100 * told[1] / abs(truth) if told and told[1] else 0.0  # nearer than this is no nearer
             front = front_of(cost, [max(e, known) for e in error])
             clouds[name] = {"cost": cost, "error": error, "labels": [row.member.name for row in judged], "front": front,
+                            "known": known,
                             "truth": truth, "of": told[2] if told else f"member {dearest.member.name}, the dearest"}
+            clouds[name]["prices"] = {f"{target:g}": cheapest(judged, cost, error, target) for target in TARGETS}
             for i in front:
                 wins[judged[i].member.name].append(name)
             answer.sentences.append(f"{name}: error against {scaled_text(truth, done[0].unit(name))} "
@@ -85,13 +89,17 @@ class Pareto:
         answer.tables = [Table("All members, the cheapest first",
                                ["member", "core-seconds", *(f"{name}, error %" for name in clouds), "best for"],
                                [self.line(row, clouds, wins)
-                                for row in sorted(done, key=lambda r: r.cost["core_seconds"])])]
+                                for row in sorted(done, key=lambda r: r.cost["core_seconds"])]),
+                          Table("What an error costs: core time of the cheapest member that is as near, with all finer "
+                                "cells of its settings", ["measure", *(f"{target:g} %" for target in TARGETS)],
+                                [[name, *map(price, cloud["prices"].values())] for name, cloud in clouds.items()])]
         never = [name for name, won in wins.items() if not won and name != dearest.member.name]
         if never and clouds:
             answer.sentences.append("Dominated for every measure (another member is both cheaper and nearer): " +
                                     ", ".join(never) + ".")
         answer.data = {"measures": clouds, "dominated": never}
-        answer.pictures = [Picture("front", "Error against cost; the line joins the settings that nothing beats.",
+        answer.pictures = [Picture("front", "Error against cost; the line joins the settings that nothing beats. "
+                                   "Shaded: nearer than the truth itself is known, which counts as no nearer.",
                                    lambda figure: pictures.front(figure, clouds))] if clouds else []
         return answer
 
@@ -102,6 +110,20 @@ class Pareto:
                 ", ".join(wins[row.member.name])]
 
 
+def cheapest(rows, cost, error, target):
+    """(core-seconds, member) of the cheapest that is as near, and stays so with every finer cell: a coarse cell that hits
+    by luck is no price. None: no member is."""
+    rest = [{path: text for path, text in row.member.values.items() if path != CELL} for row in rows]
+    steady = [(cost[i], row.member.name) for i, row in enumerate(rows)
+              if all(error[j] <= target for j, finer in enumerate(rows)
+                     if rest[j] == rest[i] and finer.cell <= row.cell)]
+    return min(steady) if steady else None
+
+
+def price(found):
+    return f"{text_of(found[0])}: {found[1]}" if found else "-"
+
+
 def front_of(cost, error):
     """Indices that no other beats in both."""
     return [i for i in range(len(cost))
@@ -109,9 +131,9 @@ def front_of(cost, error):
                        for j in range(len(cost)))]
 
 
-def scaled_text(value, unit):
+def scaled_text(value, unit, digits=5):
     scale, unit = scaled(unit)
-    return f"{scale * value:.5g} {unit}".strip()
+    return f"{scale * value:.{digits}g} {unit}".strip()
 
 
 class Ablation:
@@ -223,7 +245,8 @@ class Sweep:
         if not done:
             return answer
         paths = list(done[0].member.values)
-        answer.tables = [Table("All members", ["member", *paths, *self.study.measures, "core-seconds"],
+        short = short_names(paths)
+        answer.tables = [Table("All members", ["member", *short.values(), *self.study.measures, "core-seconds"],
                                [[row.member.name, *row.member.values.values(),
                                  *("-" if row.measure(name) is None else scaled_text(row.measure(name), row.unit(name))
                                    for name in self.study.measures), number(row.cost["core_seconds"], 3)]
@@ -242,7 +265,7 @@ class Sweep:
             if len(good) > 1:
                 answer.data["spread"][name] = float(np.std(good, ddof=1))
                 answer.sentences.append(f"{name}: mean {scaled_text(np.mean(good), unit)}, standard deviation "
-                                        f"{scaled_text(np.std(good, ddof=1), unit)} over {len(good)} members.")
+                                        f"{scaled_text(np.std(good, ddof=1), unit, 3)} over {len(good)} members.")
         answer.pictures = [Picture("sweep", "Every measure against every input.",
                                    lambda figure: pictures.scatter(figure, inputs, outputs))]
         return answer
@@ -252,7 +275,7 @@ class Sweep:
         from scipy.stats import spearmanr
         table = Table("Rank correlation of measure and input (Spearman; in brackets the chance to see as much from "
                       "none)",
-                      ["measure", *inputs], [])
+                      ["measure", *short_names(list(inputs)).values()], [])
         for name, (values, _) in outputs.items():
             cells, y = [], np.asarray(values, float)
             for x, _ in inputs.values():
@@ -278,7 +301,7 @@ class Sweep:
                             row.member.values[path] == text]
                     mean = np.mean(every) if every else 0
                     cells.append(f"{100 * (np.mean(here) - mean) / abs(mean):+.3g}" if here and mean else "-")
-                table.rows.append([path, text, *cells])
+                table.rows.append([short_names(paths)[path], text, *cells])
         return table
 
 

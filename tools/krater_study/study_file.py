@@ -15,7 +15,7 @@ KEYS = {
     "pareto": ("vary",),
     "ablation": ("effects",),
     "sweep": ("vary", "design", "members", "seed"),
-    "ballistic_limit": ("outcome", "speed", "members"),
+    "ballistic_limit": ("outcome", "speed", "members", "cells"),
     "calibrate": ("vary", "members"),
 }
 REQUIRED = {"convergence": (), "pareto": ("vary",), "ablation": ("effects",), "sweep": ("vary",),
@@ -144,6 +144,7 @@ class Study:
         self.said = dict(self.split(text) for text in settings)
         self.settings.update(self.said)
         self.check_paths("set", [path for path in self.settings if path not in self.said])
+        self.check_varied()
         self.budget = self.time("budget")
         self.threads = self.count("threads", 1, 4096)
         self.measures = self.read_measures()
@@ -246,6 +247,17 @@ class Study:
             if steps[0] in NAMED and len(steps) > 2 and steps[1] not in names:
                 self.fail(f"{key}/{path}", f"the scene {self.scene} has no {steps[0]}.{steps[1]} "
                           f"({suggestion(steps[1], names)})")
+
+    def check_varied(self):
+        """What members vary cannot be set for all of them: it would say nothing, and be believed."""
+        speed = self.keys.get("speed")
+        varied = [*self.block("vary"), *([speed.get("path")] if isinstance(speed, Block) else [])]
+        for path in varied:
+            if path in self.said:
+                raise InputError(f"--set {path}: this study varies it ({self.path}:{self.line(f'vary/{path}')}); change "
+                                 "it there")
+            if path in self.settings:
+                self.fail(f"set/{path}", "this study varies it; take one of them away")
 
     def names(self, block):
         """Free names of a block of the scene, and of what `set` adds to it."""

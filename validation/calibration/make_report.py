@@ -18,7 +18,7 @@ from krater_study.uncertainty import estimate  # noqa: E402
 from validate_calibration import problems  # noqa: E402
 from validate_runs import Study  # noqa: E402
 
-ESTIMATED_SECONDS = 90  # on two quiet cores
+ESTIMATED_SECONDS = 150  # on two quiet cores
 SHIFTS = (0.0, -0.04, 0.04)
 KINDS = ("two cells", "three cells", "four cells", "three cells, three lattices each")
 ROUND = 1e-9  # of the answer: round-off is no error of the cell
@@ -113,7 +113,7 @@ def report(study, cases):
         f"each every "
         "run of two, three and four neighbouring cells, as if a user had chosen them. Measures were chosen before "
         "their errors were "
-        "looked at; none was left out.",
+        "looked at, but for the last six problems; none was left out.",
         f"**{per_cent(cases):.1f} % of {len(cases)} bands hold the truth** (demanded: 90 %). By what the band was made "
         f"from: " +
         "; ".join(f"{kind} {per_cent(chosen):.0f} %" for kind, chosen in by_kind.items() if chosen) + ".",

@@ -72,7 +72,7 @@ def shoot(study, row, card, friction):
         return None
     cells = [1 / n for n in CELLS_ON_RADIUS]
     found = {name: estimate(cells, [run.measure(name) for run in runs]) for name in MEASURES}
-    return Shot(card, friction, found, sum(runs[-1].summary["machine"]["seconds"].values()), runs[-1].error)
+    return Shot(card, friction, found, runs[-1].summary["machine"]["processor_seconds"], runs[-1].error)
 
 
 def off(shot, row, name):
