@@ -16,8 +16,8 @@
 /// that shares a node, nor its own image in a plane that mirrors. So shear tears nothing, though it
 /// stretches: neighbours change. A point at a free end of its body counts once it is so stretched.
 ///
-/// Only sound points of what can lose a tension: not failed ones, not those of fluids. Looked for at
-/// rows of the history and at frames. Off, no domain is kept and nothing is asked.
+/// Only sound points of what can lose a tension: not failed ones, not those of fluids. Looked for
+/// at rows of the history and at frames. Off, no domain is kept and nothing is asked.
 #include <cstddef>
 #include <vector>
 
