@@ -22,6 +22,7 @@
 #include "krater/measure/measurements.hpp"
 #include "krater/measure/outcomes.hpp"
 #include "krater/measure/snapshot.hpp"
+#include "krater/simulation/rigid_course.hpp"
 #include "krater/simulation/simulation.hpp"
 
 namespace krater {
@@ -295,6 +296,7 @@ void print_text(const Checked& of, const std::string& file) {
   print_cards(scene);
   for (const std::string& doubt : doubts_of(scene)) fmt::print("doubt: {}\n", doubt);
   for (const std::string& doubt : doubt_levels(sim)) fmt::print("doubt: {}\n", doubt);
+  for (const std::string& doubt : doubt_course(sim)) fmt::print("doubt: {}\n", doubt);
 }
 
 }  // namespace

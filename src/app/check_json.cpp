@@ -5,6 +5,7 @@
 #include "krater/app/level_report.hpp"
 #include "krater/geometry/meshes/mesh.hpp"
 #include "krater/geometry/seeds/column.hpp"
+#include "krater/simulation/rigid_course.hpp"
 
 namespace krater {
 
@@ -147,7 +148,8 @@ Json check_json(const Checked& of) {
   for (const std::string& note : card_notes(scene)) notes.push_back(note);
   out["notes"] = texts(notes);
   std::vector<std::string> doubts = doubts_of(scene);
-  for (const std::string& doubt : doubt_levels(of.sim)) doubts.push_back(doubt);
+  for (const auto& some : {doubt_levels(of.sim), doubt_course(of.sim)})
+    doubts.insert(doubts.end(), some.begin(), some.end());
   out["doubts"] = texts(doubts);
   return out;
 }

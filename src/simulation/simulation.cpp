@@ -12,6 +12,7 @@
 #include "krater/kinematics/mpm/columns.hpp"
 #include "krater/simulation/face_loads.hpp"
 #include "krater/simulation/refinement.hpp"
+#include "krater/simulation/rigid_course.hpp"
 #include "simulation/slabs.hpp"
 
 namespace krater {
@@ -131,6 +132,7 @@ Simulation::Simulation(const Scene& scene, IsaLevel level)
 
 void Simulation::start() {
   place_rigid_bodies();
+  require_way(*this);
   place_meshes();
   place_particles();
   require_faces(*this);

@@ -11,6 +11,7 @@
 #include "krater/simulation/point_maker.hpp"
 #include "krater/simulation/refinement.hpp"
 #include "krater/simulation/simulation.hpp"
+#include "krater/simulation/torn_points.hpp"
 
 namespace krater {
 
@@ -132,9 +133,7 @@ double Simulation::place_body(int b) {
 
 /// Its points are cut where they are long (kinematics/mpm/stretch.hpp).
 bool Simulation::may_split(const Body& body) const {
-  if (scene_.method.numerical_fracture != NumericalFracture::split ||
-      !body.options().material_points() || body.options().rigid() || body.is_fluid())
-    return false;
+  if (scene_.method.numerical_fracture != NumericalFracture::split || !may_tear(body)) return false;
   for (int a = 0; a < geometry_.dimension; ++a)
     if (body.options().points.per_direction[static_cast<std::size_t>(a)] < 2)
       throw InputError(body.options().where +

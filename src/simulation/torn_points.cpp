@@ -129,9 +129,8 @@ class Places {
 };
 
 bool watched(const Simulation& sim, int body) {
-  const Body& b = *sim.bodies()[static_cast<std::size_t>(body)];
   return sim.scene().method.numerical_fracture != NumericalFracture::ignore &&
-         !b.options().rigid() && b.options().material_points() && !b.is_fluid();
+         may_tear(*sim.bodies()[static_cast<std::size_t>(body)]);
 }
 
 bool is_torn(const BodyLook& look, const Places& places, const Stretched& p, int dimension) {
@@ -156,6 +155,11 @@ bool is_torn(const BodyLook& look, const Places& places, const Stretched& p, int
 }
 
 }  // namespace
+
+bool may_tear(const Body& body) {
+  return body.options().material_points() && !body.options().rigid() &&
+         (body.material().strength || body.material().model);
+}
 
 FractureOfPoints fracture_of(const Simulation& sim, int body) {
   const std::vector<std::pair<int, int>> ids = sim.points_by_id(body);

@@ -91,7 +91,8 @@ TEST_SUITE("contract") {
   TEST_CASE("a failed point that is open meets the step with its stiffness over rho0") {
     const std::pair<const char*, const char*> laws[] = {{"holmquist_johnson_cook", "damage"},
                                                         {"karagozian_case", "lambda"}};
-    for (const auto& [law, broken] : laws) {
+    for (const auto& one : laws) {
+      const char *const law = one.first, *const broken = one.second;
       for (const Level& level : levels()) {
         CAPTURE(law);
         CAPTURE(std::string{level.name});

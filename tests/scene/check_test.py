@@ -4,9 +4,10 @@
 
 import json
 import math
+import pathlib
 import re
 
-from scene_support import TAYLOR, Folder, check, finish, krater, run, summary
+from scene_support import ROOT, TAYLOR, Folder, check, finish, krater, run, summary
 
 MESH = "bodies.rod.kinematics={lagrangian_mesh: {element: 0.762 mm}}"
 TELLS = ["advice", "bodies", "cell", "cells_looked_at", "contact", "doubts", "effects", "forecast", "frame", "notes",
@@ -80,6 +81,21 @@ def levels():
           "cells are those of the scene when longer ones were looked at", few["levels"])
 
 
+def rigid():
+    plugging = (ROOT / "inputs" / "ccf_plugging.yaml", "--set", "grid.cell=4 mm", "--set", "grid.boundary.z_min=wall")
+    free = (*plugging, "--set", "bodies.projectile.rigid=free", "--set", "time.end=1 ms")
+    facts, text = object_of(*free), krater("check", *free).stdout
+    doubts = [d for d in facts["doubts"] if d.startswith("projectile: if nothing stops it before, it runs into z_min at 0.0002")]
+    check(len(doubts) == 1 and facts["doubts"] == told(text, "doubt"), "a free body that flies to a wall is doubted", facts["doubts"])
+    text = plugging[0].read_text(encoding="utf-8").replace("velocity: [0, -298 m/s]", "rigid: {velocity: [0, -298 m/s]}")
+    pathlib.Path("driven.yaml").write_text(text.replace("end: 100 us", "end: 1 ms"), encoding="utf-8")
+    driven = ("driven.yaml", *plugging[1:])
+    for command in ("check", "run"):
+        done = krater(command, *driven)
+        check(done.returncode == 2 and re.search(r"\.yaml:\d+: bodies\.projectile: its motion runs into z_min at 0\.0002", done.stderr),
+              f"{command}: a prescribed motion into a wall is refused", done.text[-300:])
+
+
 def errors():
     done = krater("check", "--json", TAYLOR, "--set", "grid.cel=1 mm")
     check(done.returncode == 2 and done.stdout == "" and "grid.cel" in done.stderr, "an error goes to stderr", done.text)
@@ -92,5 +108,6 @@ with Folder():
     step()
     elements()
     levels()
+    rigid()
     errors()
 finish()

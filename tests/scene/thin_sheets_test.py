@@ -79,6 +79,26 @@ def bar():
     check(done.returncode == 0 and not other, "the same bits across a restart", other or done.text[-300:])
 
 
+def rubber():
+    """Almost incompressible, so that its pressure is integrated as a fluid's, and yet it bears a tension."""
+    begin, end = BAR.index("  metal:"), BAR.index("bodies:")
+    law = "  metal: {density: 1000, shear_modulus: 1 MPa, strength: {neo_hookean: {lame_lambda: 100 MPa}}}\n"
+    pathlib.Path("rubber.yaml").write_text(BAR[:begin] + law + BAR[end:], encoding="utf-8")
+    run("rubber_watched", "method.numerical_fracture=watch", scene="rubber.yaml")
+    stretch = history("rubber_watched")["greatest_stretch"].max()
+    check(stretch > 0.75, "rubber left alone: how far its points are stretched is told", stretch)
+    run("rubber", scene="rubber.yaml")
+    told, audit = fracture("rubber"), summary("rubber")["audit"]
+    with h5py.File("rubber/frames.h5", "r") as file:
+        last = file["frames"][sorted(file["frames"])[-1]]["bar"]
+        z, mass = last["coordinates"][:, 2], last["mass"][()].ravel()
+    inner = 0.6 * z.max()
+    spread, _ = np.histogram(z, bins=8, range=(0, inner), weights=mass)
+    check(history("rubber")["torn_points"].max() == 0 and audit["split_points"] > 480, "split it holds", told)
+    check(np.max(np.abs(spread / np.mean(spread) - 1)) < 0.1, "and thins evenly", [round(x, 3) for x in spread / np.mean(spread)])
+    check(abs(audit["mass"] / (1000 * HALF * 30e-3) - 1) < 1e-12, "no point of it flies off", audit["mass"])
+
+
 def others():
     """A round bar, a bar across finer cells, and one whose halves may become one again."""
     round_bar = BAR.replace(f"{-RATE}*x", f"{-RATE / 2}*x").replace("x_min: symmetry", "r_min: axis")
@@ -106,6 +126,7 @@ def refused():
 
 with Folder():
     bar()
+    rubber()
     others()
     refused()
 finish()

@@ -264,11 +264,12 @@ TEST_SUITE("verification") {
              "}\n  base: {material: metal, shape: {box: {min: [" + wide +
              ", -6 mm], max: [8 mm, 0]}}, " + second + "}\n";
     };
-    for (const auto& [first, second] :
+    for (const auto& bodies :
          {std::pair{mesh_of(1), mesh_of(0.5)}, {mesh_of(1), kPoints}, {kPoints, mesh_of(1)}})
       for (const double friction : {0.0, 0.2}) {
-        CAPTURE(first);
-        CAPTURE(second);
+        const auto& [first, second] = bodies;
+        CAPTURE(bodies.first);
+        CAPTURE(bodies.second);
         CAPTURE(friction);
         Run whole = start_text(scene(false, friction, first, second)),
             half = start_text(scene(true, friction, first, second));

@@ -79,12 +79,13 @@ TEST_SUITE("verification") {
     for (const Case& c :
          {Case{kParticles, kParticles}, Case{kParticles, kPoints}, Case{kPoints, kParticles},
           Case{kParticles, kElements}, Case{kElements, kParticles}})
-      for (const auto& [cell, place] :
+      for (const auto& lattice :
            {std::pair{1.0, 0.0}, std::pair{1.0, 0.5}, std::pair{0.5, 0.0}, std::pair{2.0, 0.5}}) {
+        const auto& [cell, place] = lattice;
         CAPTURE(c.first);
         CAPTURE(c.second);
-        CAPTURE(cell);
-        CAPTURE(place);
+        CAPTURE(lattice.first);
+        CAPTURE(lattice.second);
         const Outcome out = meet(two_bars(cell, place, c.first, c.second));
         const bool both = c.first == c.second;
         if (cell == 1) CHECK(out.taken > (both ? 0.95 : 0.977));

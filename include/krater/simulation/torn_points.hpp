@@ -16,8 +16,8 @@
 /// that shares a node, nor its own image in a plane that mirrors. So shear tears nothing, though it
 /// stretches: neighbours change. A point at a free end of its body counts once it is so stretched.
 ///
-/// Only sound points: not failed ones, not those of fluids, which bear no tension. Looked for at
-/// rows of the history and at frames. Off, no domain is kept and nothing is asked.
+/// Only sound points of what can lose a tension: not failed ones, not those of fluids. Looked for
+/// at rows of the history and at frames. Off, no domain is kept and nothing is asked.
 #include <cstddef>
 #include <vector>
 
@@ -25,6 +25,7 @@
 
 namespace krater {
 
+class Body;
 class Simulation;
 
 struct TornPoints {
@@ -34,6 +35,10 @@ struct TornPoints {
   double greatest_stretch = 0;  ///< over the reach of the grid
   std::vector<std::size_t> torn_by_body;
 };
+
+/// A body of material points that resists being pulled: with a strength, however soft. Rubber does,
+/// whose pressure is integrated as that of a fluid (Body::is_fluid).
+bool may_tear(const Body& body);
 
 /// Stretch of every point of a body over the reach of its nodes, those torn above 0; by id.
 struct FractureOfPoints {

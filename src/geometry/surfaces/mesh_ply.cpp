@@ -14,6 +14,8 @@
 namespace krater {
 namespace {
 
+constexpr double kMostCorners = 9e15;  // whole numbers end there; lists may be of floats
+
 struct Type {
   const char* name;
   const char* other;
@@ -173,12 +175,17 @@ class PlyReader {
       const double count = value(*p.count);
       const std::size_t left = format_ == Format::ascii ? text_.left() : data_.size() - at_;
       if (count < 0 || count > static_cast<double>(left)) fail("a list longer than the file");
+      const bool face =
+          element.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
       corners_.clear();
       for (int n = 0; n < static_cast<int>(count); ++n) {
-        corners_.push_back(static_cast<std::int64_t>(value(*p.type)));
+        const double corner = value(*p.type);
+        if (!face) continue;
+        if (!(std::abs(corner) < kMostCorners))
+          fail("a corner of a face is the number of no vertex");
+        corners_.push_back(static_cast<std::int64_t>(corner));
       }
-      const bool face = p.name == "vertex_indices" || p.name == "vertex_index";
-      if (element.name != "face" || !face) continue;
+      if (!face) continue;
       try {
         add_face(corners_, out.vertices.size(), out);
       } catch (const std::invalid_argument& error) {

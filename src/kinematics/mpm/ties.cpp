@@ -105,7 +105,7 @@ void Ties::add_tied(const NodeBlock& block, int node, const Places& places) {
   const std::array<int, 3> local = index_in({}, node, g.dimension);
   for (int a = 0; a < g.dimension; ++a)  // blocks have an even number of nodes along each axis
     if (local[static_cast<std::size_t>(a)] % 2 != 0) tied.odd |= 1U << a;
-  tied.node = static_cast<std::int32_t>(places.own * kBlockNodes + node);
+  tied.node = static_cast<std::int32_t>(places.own * kBlockNodes + static_cast<std::size_t>(node));
   if (whole_volume_) tied.whole = whole_volume_(g, index_in(block.key, node, g.dimension));
   tied.masters.fill(kNone);
   for (int c = 0; c < corner_count(g.dimension); ++c)

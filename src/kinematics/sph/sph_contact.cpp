@@ -165,8 +165,8 @@ void SphContact::give_back() {
   for_carriers([&](Carrier& q) {
     Triple dv{};
     for_nodes(q, [&](std::ptrdiff_t node, double w) {
-      for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a)
-        dv[a] += w * nodes[kNodeDoubles * node + moved::change + a];
+      const double* at = nodes + kNodeDoubles * node + moved::change;
+      for (std::size_t a = 0; a < static_cast<std::size_t>(dim_); ++a) dv[a] += w * at[a];
     });
     double* change = parts_.particles.particles(q.set).change(q.particle);
     for (std::size_t a = 0; a < 3; ++a) {

@@ -22,7 +22,7 @@ namespace {
          __builtin_cpu_supports("avx512cd");
 }
 
-void check_against_portable(void (*level)(unsigned long long*)) {
+[[maybe_unused]] void check_against_portable(void (*level)(unsigned long long*)) {
   unsigned long long portable[4];
   unsigned long long other[4];
   krater_digest_isa_portable(portable);

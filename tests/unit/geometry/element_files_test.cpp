@@ -196,8 +196,9 @@ TEST_SUITE("unit") {
     const ScratchFolder folder;
     const SmallMesh bricks = small_bricks(), plane = small_quadrilaterals();
     for (const SmallMesh* small : {&bricks, &plane})
-      for (const auto& [name, text] : all_formats(*small)) {
-        CAPTURE(name);
+      for (const auto& file_and_text : all_formats(*small)) {
+        const auto& [name, text] = file_and_text;
+        CAPTURE(file_and_text.first);
         const std::string file = folder.write(name, text);
         const Frame frame = small->plane ? Frame::plane_strain : Frame::cartesian_3d;
         const PartMesh rod = read_part(file, frame, {"rod", 1e-3, 0}),

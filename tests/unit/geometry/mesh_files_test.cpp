@@ -197,8 +197,9 @@ TEST_SUITE("unit") {
         {"a.ply", ply(box, "ascii")},
         {"b.PLY", ply(box, "binary_little_endian")},
         {"c.ply", ply(box, "binary_big_endian")}};
-    for (const auto& [name, text] : files) {
-      CAPTURE(name);
+    for (const auto& file : files) {
+      const auto& [name, text] = file;
+      CAPTURE(file.first);
       const Triangles t = read_triangles(folder.write(name, text), 1e-3);
       CHECK(t.vertices.size() == 8);
       CHECK(t.facets.size() == 12);
@@ -228,8 +229,9 @@ TEST_SUITE("unit") {
         {"a.obj", obj(split)},
         {"a.ply", ply(split, "ascii")},
         {"b.ply", ply(split, "binary_little_endian")}};
-    for (const auto& [name, text] : files) {
-      CAPTURE(name);
+    for (const auto& file : files) {
+      const auto& [name, text] = file;
+      CAPTURE(file.first);
       const Triangles t = read_triangles(folder.write(name, text), 1);
       CHECK(t.vertices.size() == 8);
       CHECK_FALSE(examine_surface(t).any());

@@ -131,8 +131,9 @@ TEST_SUITE("unit") {
                                  {50e6, 160.6853e6, 110.1712e6},
                                  {200e6, 267.6075e6, 222.2933e6},
                                  {400e6, 336e6, 323.8594e6}};
-    for (const auto& [lateral, intact, rubble] : surface) {
-      CAPTURE(lateral);
+    for (const auto& row : surface) {
+      const auto& [lateral, intact, rubble] = row;
+      CAPTURE(row[0]);
       for (const double D : {0.0, 1.0}) {
         const double q = D == 0.0 ? intact : rubble, p = lateral + q / 3;
         CHECK(kF * c.strength(D, p / kF, 1.0) == Approx(q).epsilon(1e-6));
@@ -192,8 +193,9 @@ TEST_SUITE("unit") {
     // sigma3, peak of q, damage there: quadrature along the path.
     const double peaks[][3] = {
         {0, 95.38146e6, 0.0599716}, {50e6, 151.2507e6, 0.1884722}, {100e6, 190.4822e6, 0.2540571}};
-    for (const auto& [lateral, peak, damage] : peaks) {
-      CAPTURE(lateral);
+    for (const auto& row : peaks) {
+      const auto& [lateral, peak, damage] = row;
+      CAPTURE(row[0]);
       Specimen s;
       if (lateral > 0) s.hydrostatic(1e-3 + (lateral - 16e6) / 7.156269e9, 500);
       double most = 0, at = 0;
@@ -214,8 +216,9 @@ TEST_SUITE("unit") {
                               {0.005, 115.8287e6, 106.8054e6, 0.1206227, 0.000929214},
                               {0.02, 271.1229e6, 178.7306e6, 0.3774239, 0.009192541}};
     Specimen s;
-    for (const auto& [mu, axial, q, damage, plastic] : rows) {
-      CAPTURE(mu);
+    for (const auto& row : rows) {
+      const auto& [mu, axial, q, damage, plastic] = row;
+      CAPTURE(row[0]);
       s.uniaxial(mu, static_cast<int>((mu - s.mu()) / 4e-6));
       CHECK(s.axial() == Approx(axial).epsilon(2e-3));
       CHECK(s.q() == Approx(q).epsilon(2e-3));

@@ -21,6 +21,8 @@
 /// - sum f_I . v_I dt is kept beside the internal energy.
 #pragma once
 
+#include <initializer_list>
+
 #include "krater/kinematics/mesh/element.hpp"
 
 namespace krater::inline KRATER_ISA {
