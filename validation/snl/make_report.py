@@ -229,6 +229,8 @@ def resolution(study, tests, runs):
 
 def cost_of_variants(study, tests, runs, variants):
     base = runs.get(label("HJC", tests["16"], 6))
+    if not any(variants.values()):
+        return
     rows = [["as it is", f"{depth(base):.3f}", "", f"{base.error:.1f}", base.summary["steps"]]] if base else []
     for words in (*VARIANTS, *DEFORMABLE):
         run = variants.get(words)
