@@ -289,14 +289,16 @@ void ContactSet::find_contacts(const BlockGrid& grid, const std::vector<PointCol
       for (int b = a + 1; b < group.fields && mass(a) > 0; ++b) {
         if (!(mass(b) > 0)) continue;
         if (!may_meet(body_of(block(a).field), body_of(block(b).field))) continue;
-        if (rigid.find(body_of(block(a).field)) && rigid.find(body_of(block(b).field))) continue;
+        const std::array stiff{rigid.find(body_of(block(a).field)) != nullptr,
+                               rigid.find(body_of(block(b).field)) != nullptr};
+        if (stiff[0] && stiff[1]) continue;
         if (group.sources.empty()) link(grid, group);
         if (!filled) fill(grid, group, scratch);
         filled = true;
         const std::array fluid{is_fluid(body_of(block(a).field)),
                                is_fluid(body_of(block(b).field))};
         const int at = place_of(n);
-        Contact contact{n, a, b, {}, false, fluid};
+        Contact contact{n, a, b, {}, false, fluid, stiff};
         if (!find_contact(scratch, at, contact)) continue;
         if (contact.even && options_.normal == ContactNormal::logistic_regression)
           refine(grid, columns, group, joint_of(scratch, at, contact), contact);

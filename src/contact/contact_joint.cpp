@@ -17,6 +17,7 @@ namespace {
 constexpr double kTouch = 0.05;
 // Weight of a face by its trust: a corner on a face, of trust 0.1, has no say.
 constexpr double kFlatter = 4;
+constexpr double kHeld = 0.5;  // cells beyond a rigid body's face: half of what a node stands for
 constexpr double kSame = 1 - 1e-9;  // fillings that differ by less are the same
 double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
@@ -98,6 +99,29 @@ double ContactSet::gap(const double* phi_a, const double* phi_b) const {
   return widest;
 }
 
+/// How far the node `at` lies beyond the face of the body that fills as phi, along its normal
+/// [cells]: from the joint's nodes, beyond which the body reaches along the axis nearest to it.
+double ContactSet::beyond(const double* phi, int at, const Joint& joint,
+                          const std::array<double, 3>& outward) const {
+  int axis = 0;
+  for (int a = 1; a < geometry_.dimension; ++a)
+    if (std::abs(outward[static_cast<unsigned>(a)]) >
+        std::abs(outward[static_cast<unsigned>(axis)]))
+      axis = a;
+  const double along = outward[static_cast<unsigned>(axis)];
+  const int s = along > 0 ? stride_[axis] : -stride_[axis];
+  double mean = 0;
+  for (int i = 0; i < joint.count; ++i) {
+    const int n = joint.nodes[static_cast<std::size_t>(i)];
+    const JointProfile face{phi[n - s], phi[n], phi[n + s]};
+    double distance = face.before > face.beyond ? -std::abs(along) * face.reach() : 0;
+    for (int a = geometry_.dimension - 1, p = at, q = n; a >= 0; --a, p /= padded_, q /= padded_)
+      distance += outward[static_cast<unsigned>(a)] * (p % padded_ - q % padded_);
+    mean += distance / joint.count;
+  }
+  return mean;
+}
+
 ContactSet::Joint ContactSet::joint_of(const Scratch& scratch, int at,
                                        const Contact& contact) const {
   return joint_near(scratch.filling.data() + contact.a * size_,
@@ -127,8 +151,13 @@ bool ContactSet::find_contact(Scratch& scratch, int at, Contact& contact) const 
   const std::array<double, 3>&grad_a = a_slope.gradient, &grad_b = b_slope.gradient;
   for (unsigned a = 0; a < 3; ++a) contact.normal[a] = weight_b * grad_b[a] - weight_a * grad_a[a];
   const double length = std::sqrt(square(contact.normal.data()));
+  if (!(length > 0)) return false;
   for (double& n : contact.normal) n /= length;
-  return length > 0;
+  if (!contact.rigid[0] && !contact.rigid[1]) return true;
+  std::array<double, 3> outward = contact.normal;
+  if (contact.rigid[1])
+    for (double& n : outward) n = -n;
+  return beyond(contact.rigid[0] ? phi_a : phi_b, at, joint, outward) <= kHeld;
 }
 
 }  // namespace krater

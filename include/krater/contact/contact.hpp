@@ -28,6 +28,11 @@
 /// a face's place whatever part of the node's width the body takes, so that corners, edges and
 /// faces are one. They touch when the widest gap, -reach_A - reach_B, is below 0.05 cells. The
 /// volume criterion, sum phi > 1 - tol, is this one where both bodies are wide.
+/// A rigid body holds the nodes at most half a cell beyond its face. Further out a node has of it
+/// no more than the tail of its points, and by that a mass without end would hold the node as well
+/// as if it stood there: to all that flows around it a body of radius r was one of r + h (force on
+/// an ogive in metal, 3 to 24 cells in the radius). The outermost nodes that are held now lie half
+/// a cell on either side of the face, in the mean on it.
 /// Three and more fields: pairs in fixed order, three sweeps.
 ///
 /// Rigid fields (contact/rigid.hpp) count as of infinite mass and move with their own velocity at
@@ -103,7 +108,7 @@ class ContactSet {
     int a, b;  ///< fields of the group
     std::array<double, 3> normal;
     bool even;  ///< both bodies are about as wide at the joint
-    std::array<bool, 2> fluid;
+    std::array<bool, 2> fluid, rigid;
   };
   /// Padded nodes where two bodies meet, seen from one of them.
   struct Joint {
@@ -213,6 +218,8 @@ class ContactSet {
   Slope slope_at(Scratch& scratch, int field, const Joint& joint) const;
   Joint joint_near(const double* phi_a, const double* phi_b, int at) const;
   double gap(const double* phi_a, const double* phi_b) const;
+  double beyond(const double* phi, int at, const Joint& joint,
+                const std::array<double, 3>& outward) const;
   bool find_contact(Scratch& scratch, int at, Contact& contact) const;
   bool keep_in_planes(const BlockKey& key, Contact& contact) const;
   /// Returns the impulse on a.
