@@ -151,30 +151,36 @@ double Simulation::deviatoric_energy_of_set(int s) const {
 }
 
 /// Of all sets, in their order.
-std::vector<SetSums> Simulation::set_sums(bool deviatoric) const {
+std::vector<Totals> Simulation::totals_by_set() const {
+  std::vector<Totals> out(static_cast<std::size_t>(set_count()));
   if (ranks_ && !assembled_) {
     survey_together();
-    return survey_;
+    for (std::size_t s = 0; s < out.size(); ++s) out[s] = survey_[s].totals;
+    return out;
   }
-  std::vector<SetSums> sums(static_cast<std::size_t>(set_count()));
-  for_each(sums.size(), [&](std::size_t s) {
-    const int set = static_cast<int>(s);
-    sums[s] = {totals_of_set(set), deviatoric ? deviatoric_energy_of_set(set) : 0};
-  });
-  return sums;
+  for_each(out.size(), [&](std::size_t s) { out[s] = totals_of_set(static_cast<int>(s)); });
+  return out;
 }
 
 double Simulation::deviatoric_energy() const {
   double sum = 0;
-  for (const SetSums& set : set_sums(true)) sum += set.deviatoric;
+  if (ranks_ && !assembled_) {
+    survey_together();
+    for (const SetSums& set : survey_) sum += set.deviatoric;
+    return sum;
+  }
+  std::vector<double> sets(static_cast<std::size_t>(set_count()));
+  for_each(sets.size(),
+           [&](std::size_t s) { sets[s] = deviatoric_energy_of_set(static_cast<int>(s)); });
+  for (const double set : sets) sum += set;
   return sum;
 }
 
 std::vector<Totals> Simulation::totals_by_body() const {
-  const std::vector<SetSums> sums = set_sums(false);
+  const std::vector<Totals> sets = totals_by_set();
   std::vector<Totals> out(bodies_.size());
-  for (std::size_t s = 0; s < sums.size(); ++s)
-    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sums[s].totals;
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sets[s];
   return out;
 }
 

@@ -206,7 +206,7 @@ class Simulation {
   void open_slabs_together(int body) const;
   std::vector<double> records_of_slab(std::size_t first, std::size_t end) const;
   void slab_together(std::size_t first, std::size_t end) const;
-  std::vector<SetSums> set_sums(bool deviatoric) const;
+  std::vector<Totals> totals_by_set() const;
   void survey_together() const;
   void save_levels(Checkpoint& out) const;
   void restore_levels(const Checkpoint& checkpoint);
