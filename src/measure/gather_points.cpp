@@ -86,35 +86,64 @@ std::vector<Triple> parts_of(const Simulation& sim, int body, int level, int fin
   return out;
 }
 
+/// A component of all points, each `times` times in a row.
+void copy_component(const PointStore& points, int slot, std::size_t times, double* to) {
+  for (int g = 0; g < points.groups(); ++g) {
+    const double* lanes = points.point(kLanes * g) + kLanes * slot;
+    // Some lines of every record: the processor does not foresee it.
+    __builtin_prefetch(lanes + 4 * points.stride());
+    const int count = std::min(kLanes, points.count() - kLanes * g);
+    if (times == 1) {
+      to = std::copy_n(lanes, count, to);
+      continue;
+    }
+    for (int lane = 0; lane < count; ++lane) to = std::fill_n(to, times, lanes[lane]);
+  }
+}
+
+void copy_vector(const PointStore& points, int slot, int dim, std::size_t times, Triple* to) {
+  for (int i = 0; i < points.count(); ++i) {
+    const double* point = points.point(i) + kLanes * slot;
+    __builtin_prefetch(point + 4 * points.stride());
+    Triple values{};
+    for (int a = 0; a < dim; ++a) values[static_cast<std::size_t>(a)] = point[kLanes * a];
+    to = std::fill_n(to, times, values);
+  }
+}
+
 /// The points of a set into `out`, from the place `first` on; each in parts at these places from
-/// its own.
+/// its own. Column by column: a lane group's component is a line of the cache.
 void gather_set(const Simulation& sim, int at, const std::vector<WantedScalar>& wanted,
                 std::size_t first, const std::vector<Triple>& parts, BodyPoints& out) {
-  const PointSet p = sim.set(at);
-  const Body& body = *sim.bodies()[static_cast<std::size_t>(p.body)];
-  const int x = body.slot(field::Position::info), v = body.slot(field::Velocity::info);
-  const int m = body.slot(field::Mass::info), rho = body.slot(field::Density::info);
-  const int failed = out.rubble.empty() ? -1 : slot_of(body, field::Failed::info.name);
-  const double loose = 0.5 * body.material().density;
+  const PointSet set = sim.set(at);
+  const PointStore& points = *set.points;
+  const Body& body = *sim.bodies()[static_cast<std::size_t>(set.body)];
   const int dim = sim.geometry().dimension;
-  const auto vector = [dim](const double* point, int slot) {
-    Triple values{};
-    for (int a = 0; a < dim; ++a) values[static_cast<std::size_t>(a)] = point[kLanes * (slot + a)];
-    return values;
-  };
-  for (std::size_t k = 0; k < static_cast<std::size_t>(p.count()) * parts.size(); ++k) {
-    const std::size_t n = first + k;
-    const double* point = p.points->point(static_cast<int>(k / parts.size()));
-    out.x[n] = vector(point, x);
-    for (std::size_t a = 0; parts.size() > 1 && a < 3; ++a)
-      out.x[n][a] += parts[k % parts.size()][a];
-    if (!out.v.empty()) out.v[n] = vector(point, v);
-    out.mass[n] = point[kLanes * m] / static_cast<double>(parts.size());
-    out.density[n] = point[kLanes * rho];
-    if (!out.body.empty()) out.body[n] = p.body;
-    if (!out.rubble.empty())
-      out.rubble[n] = failed >= 0 && point[kLanes * failed] > 0.5 && out.density[n] < loose;
-    for (const WantedScalar& w : wanted) (*w.values)[n] = w.slot < 0 ? 0.0 : point[kLanes * w.slot];
+  const std::size_t times = parts.size(),
+                    end = first + times * static_cast<std::size_t>(set.count());
+  copy_vector(points, body.slot(field::Position::info), dim, times, out.x.data() + first);
+  copy_component(points, body.slot(field::Mass::info), times, out.mass.data() + first);
+  copy_component(points, body.slot(field::Density::info), times, out.density.data() + first);
+  for (std::size_t n = first; times > 1 && n < end; ++n) {
+    for (std::size_t a = 0; a < 3; ++a) out.x[n][a] += parts[(n - first) % times][a];
+    out.mass[n] /= static_cast<double>(times);
+  }
+  if (!out.v.empty())
+    copy_vector(points, body.slot(field::Velocity::info), dim, times, out.v.data() + first);
+  for (const WantedScalar& w : wanted) {
+    double* const to = w.values->data() + first;
+    if (w.slot < 0)
+      std::fill_n(to, end - first, 0.0);
+    else
+      copy_component(points, w.slot, times, to);
+  }
+  if (out.body.empty()) return;
+  const int failed = slot_of(body, field::Failed::info.name);
+  const double loose = 0.5 * body.material().density;
+  for (std::size_t n = first; n < end; ++n) {
+    out.body[n] = set.body;
+    out.rubble[n] = failed >= 0 && out.density[n] < loose &&
+                    points.at(kLanes * failed, static_cast<int>((n - first) / times)) > 0.5;
   }
 }
 
@@ -202,8 +231,11 @@ void gather_points(const Simulation& sim, const std::vector<int>& bodies, const 
   out.density.resize(count);
   out.body.resize(needs.pieces ? count : 0);
   out.rubble.resize(needs.pieces ? count : 0);
-  for (const std::string& name : available(sim, bodies, needs.fields))
-    out.scalars[name].resize(count);
+  const std::vector<std::string> names = available(sim, bodies, needs.fields);
+  std::erase_if(out.scalars, [&](const auto& scalar) {
+    return std::find(names.begin(), names.end(), scalar.first) == names.end();
+  });
+  for (const std::string& name : names) out.scalars[name].resize(count);
   std::vector<std::vector<WantedScalar>> wanted(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (auto& [name, values] : out.scalars)

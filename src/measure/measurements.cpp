@@ -210,17 +210,27 @@ MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure) 
   return out;
 }
 
+namespace {
+
+void add_needs(const MeasureOptions& measure, GatherNeeds& needs) {
+  for (const std::string& field : fields_of(measure)) needs.fields.push_back(field);
+  needs.velocity = needs.velocity || needs_velocity(measure.kind);
+  needs.pieces = needs.pieces || needs_pieces(measure);
+}
+
+}  // namespace
+
 Selections::Selections(const Scene& scene) {
   for (const MeasureOptions& m : scene.measures) {
-    GatherNeeds& needs = needs_[m.selection.bodies];
-    for (const std::string& field : fields_of(m)) needs.fields.push_back(field);
-    needs.velocity = needs.velocity || needs_velocity(m.kind);
-    needs.surface = needs.surface || needs_surface(m.kind);
-    needs.pieces = needs.pieces || needs_pieces(m);
+    const std::vector<int>& bodies = m.selection.bodies;
+    needs_[bodies].surface = in_rows_[bodies].surface = needs_surface(scene, bodies);
+    add_needs(m, needs_[bodies]);
+    if (in_row(m)) add_needs(m, in_rows_[bodies]);
   }
 }
 
-void Selections::begin() {
+void Selections::begin(Asked asked) {
+  asked_ = asked;
   for (Kept& kept : kept_) kept.now = false;
 }
 
@@ -232,7 +242,8 @@ const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelecti
   MeasureSelection whole;
   whole.bodies = selection.bodies;
   if (selection == whole)
-    gather_points(sim, selection.bodies, needs_[selection.bodies], kept.points);
+    gather_points(sim, selection.bodies,
+                  (asked_ == Asked::rows ? in_rows_ : needs_)[selection.bodies], kept.points);
   else
     kept.points = select(selection, points(sim, whole), cells_of(sim, selection.bodies));
   kept.points.memo = std::make_shared<SurfaceMemo>();
@@ -298,7 +309,7 @@ double Measurements::sample(const Simulation& sim, std::size_t i) {
 }
 
 std::vector<double> Measurements::now(const Simulation& sim, const std::vector<int>& measures) {
-  selections_.begin();
+  selections_.begin(Selections::Asked::all);
   std::vector<double> out;
   for (const int i : measures) out.push_back(sample(sim, static_cast<std::size_t>(i)));
   return out;
@@ -308,7 +319,7 @@ std::vector<double> Measurements::now(const Simulation& sim, const std::vector<i
 std::vector<double> Measurements::values(const Simulation& sim, bool all) {
   std::vector<double> out(start_.size(), kNothing);
   if (sim.broken()) return out;
-  selections_.begin();
+  selections_.begin(all ? Selections::Asked::all : Selections::Asked::rows);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
     if (!all && !in_row(m)) continue;

@@ -48,8 +48,11 @@ std::vector<double> fragment_numbers(const Simulation& sim, int body);
 /// Selected points, gathered once for all measures of one selection.
 class Selections {
  public:
+  /// By which measures: of all, or of those in rows of history.
+  enum class Asked { all, rows };
+
   explicit Selections(const Scene& scene);
-  void begin();  ///< the points have moved: what was selected is memory only
+  void begin(Asked asked);  ///< the points have moved: what was selected is memory only
   const BodyPoints& points(const Simulation& sim, const MeasureSelection& selection);
 
  private:
@@ -58,8 +61,9 @@ class Selections {
     BodyPoints points;
     bool now = false;  ///< selected since the beginning
   };
-  std::map<std::vector<int>, GatherNeeds> needs_;  ///< by the bodies of a selection
-  std::deque<Kept> kept_;                          // references stay valid
+  std::map<std::vector<int>, GatherNeeds> needs_, in_rows_;  ///< by the bodies of a selection
+  Asked asked_ = Asked::all;
+  std::deque<Kept> kept_;  // references stay valid
 };
 
 /// A row of its history, or its summary, reads single points: its measures do, but for those of

@@ -71,8 +71,14 @@
 
 namespace krater {
 
-/// Ends of a surface that the measures of one row share: each costs a pass over all points.
+/// What the measures of one row share: each costs a pass over all points.
 struct SurfaceMemo {
+  /// Least and greatest coordinates of the points: of all, of those that stand for more than a cell
+  /// of the measuring grid each. [axis][0 least, 1 greatest] [m]
+  struct Bounds {
+    std::array<std::array<double, 2>, 3> all, sparse;
+  };
+  std::optional<Bounds> bounds;
   std::array<std::optional<std::array<double, 2>>, 3> ends;  ///< [axis][0 lowest, 1 highest] [m]
 };
 

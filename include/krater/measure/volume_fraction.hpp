@@ -27,7 +27,9 @@
 /// no inside to take f from: f = 1.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -105,10 +107,16 @@ class VolumeFraction {
   /// [axis][side]: a closed plane is a wall, towards which a surface may flare (not a symmetry).
   using Walls = std::array<std::array<bool, 2>, 3>;
 
+  /// The outermost place of a surface over all lines, NaN: none; over the well filled ones.
+  struct Outermost {
+    double of_any = std::numeric_limits<double>::quiet_NaN(), of_filled = of_any;
+    double place() const { return std::isnan(of_filled) ? of_any : of_filled; }
+  };
+
   /// Outermost surface over all lines along `axis` (over the well filled ones, if any); side 0: the
-  /// lowest, 1: the highest. NaN: none. Edges of lines on a wall are extrapolated to it; elsewhere
+  /// lowest, 1: the highest. Edges of lines on a wall are extrapolated to it; elsewhere
   /// they are averaged with the lines beside them, which costs a/4 . a/R on a surface of radius R.
-  double outermost(int axis, int side, const Walls& walls) const;
+  Outermost outermost(int axis, int side, const Walls& walls) const;
 
   /// The edges of all lines along an axis, as positions.
   struct Surface {

@@ -25,7 +25,7 @@
 
 namespace krater {
 
-/// Totals over the points, measured by a slow independent walk over the columns.
+/// Totals over the points, by a walk over the columns that knows nothing of the step.
 struct Totals {
   double count = 0, mass = 0, kinetic = 0, internal = 0;
   std::array<double, 3> momentum{};

@@ -15,6 +15,7 @@
 #include "krater/core/errors.hpp"
 #include "krater/geometry/seeds/lattice.hpp"
 #include "krater/geometry/solids/primitives.hpp"
+#include "krater/measure/measure_surface.hpp"
 #include "unit/measure/point_sets_support.hpp"
 
 using namespace krater;
@@ -298,6 +299,44 @@ TEST_SUITE("unit") {
         // A sharp rim lies up to a cell outside the last well filled line, on a face of slope 2
         // dish / rod.
         CHECK(std::abs(error) < (dish > 0 ? 0.3 * dish : 0.03 * h));
+      }
+    }
+  }
+
+  TEST_CASE("measures: the end of a long body is that of all its points") {
+    for (const Frame frame : {Frame::axisymmetric, Frame::cartesian_3d}) {
+      const MeasureContext context = anvil(frame, h);
+      const int last = dimension(frame) - 1;
+      const auto agrees = [&](const BodyPoints& body) {
+        const VolumeFraction whole = volume_fraction(body, context);
+        for (const int side : {0, 1}) {
+          const double place = std::clamp(whole.outermost(last, side, walls_of(context)).place(),
+                                          context.min[index(last)], context.max[index(last)]);
+          CHECK(outermost(body, context, last, side) == doctest::Approx(place).epsilon(1e-12));
+        }
+      };
+      for (const double dish : {0.0, -6 * h, 2 * h, 5 * h}) {
+        Mushroom m;
+        m.compression = 1;
+        m.length = 46 * h;
+        m.dish = dish;
+        m.jitter = 0.2;
+        const BodyPoints body = deformed(m, context);
+        agrees(body);
+        // Spray beyond the end, in its layer or alone in one, fills no line: the surface is the
+        // body's own.
+        for (const double beyond : {3 * h, 20 * h}) {
+          BodyPoints sprayed = body;
+          for (std::size_t p = 0; p < body.count(); p += 2) {
+            if (body.x[p][index(last)] < m.length - 1.5 * h) continue;
+            sprayed.x.push_back(body.x[p]);
+            sprayed.x.back()[index(last)] += beyond;
+            sprayed.mass.push_back(body.mass[p]);
+            sprayed.density.push_back(body.density[p]);
+          }
+          REQUIRE(sprayed.count() > body.count());
+          agrees(sprayed);
+        }
       }
     }
   }
