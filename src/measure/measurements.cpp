@@ -12,6 +12,7 @@
 #include "krater/measure/measure_surface.hpp"
 #include "krater/measure/pieces.hpp"
 #include "krater/measure/snapshot.hpp"
+#include "measure/selections.hpp"
 
 namespace krater {
 
@@ -23,78 +24,6 @@ bool needs_face(const MeasureOptions& measure) { return measure.side >= 0; }
 
 bool needs_mass(const MeasureOptions& measure) {
   return measure.kind == MeasureKind::removed_mass || measure.kind == MeasureKind::mass_lost;
-}
-
-std::vector<std::string> fields_of(const MeasureOptions& measure) {
-  switch (measure.kind) {
-    case MeasureKind::mean:
-    case MeasureKind::maximum:
-    case MeasureKind::minimum:
-      return {measure.field};
-    case MeasureKind::internal_energy:
-      return {"internal_energy"};
-    case MeasureKind::failed_mass:
-    case MeasureKind::mass_lost:
-    case MeasureKind::sound_mass:
-      return {"failed"};
-    default:
-      return {};
-  }
-}
-
-bool needs_velocity(MeasureKind kind) {
-  switch (kind) {
-    case MeasureKind::mean_velocity:
-    case MeasureKind::momentum:
-    case MeasureKind::deceleration:
-    case MeasureKind::settling_time:
-    case MeasureKind::kinetic_energy:
-    case MeasureKind::angular_momentum:
-    case MeasureKind::obliquity:
-    case MeasureKind::yaw:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool needs_surface(MeasureKind kind) {
-  switch (kind) {
-    case MeasureKind::extent:
-    case MeasureKind::max:
-    case MeasureKind::min:
-    case MeasureKind::diameter:
-    case MeasureKind::largest_diameter:
-    case MeasureKind::penetration_depth:
-    case MeasureKind::crater_depth:
-    case MeasureKind::crater_diameter:
-    case MeasureKind::hole_diameter:
-    case MeasureKind::debris_extent:
-    case MeasureKind::bulge:
-      return true;
-    default:
-      return false;
-  }
-}
-
-/// Some measure of these bodies does: all of them see the same points.
-bool needs_surface(const Scene& scene, const std::vector<int>& bodies) {
-  return std::any_of(scene.measures.begin(), scene.measures.end(), [&](const MeasureOptions& m) {
-    return m.selection.bodies == bodies && needs_surface(m.kind);
-  });
-}
-
-MeasureContext cells_of(const Simulation& sim, const std::vector<int>& bodies) {
-  return measure_context(sim, bodies, needs_surface(sim.scene(), bodies));
-}
-
-bool needs_pieces(const MeasureOptions& measure) {
-  return measure.kind == MeasureKind::fragments || measure.selection.largest_piece ||
-         measure.selection.least_points > 1;
-}
-
-bool in_row(const MeasureOptions& measure) {
-  return measure.in_history || measure.keep != Keep::now || looks_back(measure.kind);
 }
 
 /// By grid axis.
@@ -208,47 +137,6 @@ MeasureContext context_of(const Simulation& sim, const MeasureOptions& measure) 
     for (std::size_t a = 0; a < 3; ++a) out.impulse[a] += more[a];
   }
   return out;
-}
-
-namespace {
-
-void add_needs(const MeasureOptions& measure, GatherNeeds& needs) {
-  for (const std::string& field : fields_of(measure)) needs.fields.push_back(field);
-  needs.velocity = needs.velocity || needs_velocity(measure.kind);
-  needs.pieces = needs.pieces || needs_pieces(measure);
-}
-
-}  // namespace
-
-Selections::Selections(const Scene& scene) {
-  for (const MeasureOptions& m : scene.measures) {
-    const std::vector<int>& bodies = m.selection.bodies;
-    needs_[bodies].surface = in_rows_[bodies].surface = needs_surface(scene, bodies);
-    add_needs(m, needs_[bodies]);
-    if (in_row(m)) add_needs(m, in_rows_[bodies]);
-  }
-}
-
-void Selections::begin(Asked asked) {
-  asked_ = asked;
-  for (Kept& kept : kept_) kept.now = false;
-}
-
-const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelection& selection) {
-  auto at = std::find_if(kept_.begin(), kept_.end(),
-                         [&](const Kept& kept) { return kept.selection == selection; });
-  Kept& kept = at != kept_.end() ? *at : kept_.emplace_back(Kept{selection, {}, false});
-  if (kept.now) return kept.points;
-  MeasureSelection whole;
-  whole.bodies = selection.bodies;
-  if (selection == whole)
-    gather_points(sim, selection.bodies,
-                  (asked_ == Asked::rows ? in_rows_ : needs_)[selection.bodies], kept.points);
-  else
-    kept.points = select(selection, points(sim, whole), cells_of(sim, selection.bodies));
-  kept.points.memo = std::make_shared<SurfaceMemo>();
-  kept.now = true;
-  return kept.points;
 }
 
 bool looks_at_points(const Scene& scene) {

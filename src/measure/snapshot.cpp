@@ -130,7 +130,7 @@ std::vector<Quantity> history_row(const Simulation& sim) {
   add(row, "kinetic_energy", "J", t.kinetic);
   add(row, "internal_energy", "J", t.internal);
   add(row, "total_energy", "J", t.kinetic + t.internal);
-  add(row, "deviatoric_elastic_energy", "J", sim.deviatoric_energy());
+  add(row, "deviatoric_elastic_energy", "J", t.deviatoric);
   add(row, "plastic_work", "J", a.plastic_work);
   add(row, "viscous_work", "J", a.viscous_work);
   add(row, "transfer_loss", "J", a.transfer_loss);

@@ -141,10 +141,7 @@ void Simulation::survey_together() const {
   if (surveyed_ == steps()) return;
   if (together_ && ranks::first()) tell(Order::survey);
   survey_.assign(static_cast<std::size_t>(set_count()), {});
-  for_each(survey_.size(), [&](std::size_t s) {
-    const int set = static_cast<int>(s);
-    survey_[s] = {totals_of_set(set), deviatoric_energy_of_set(set)};
-  });
+  for_each(survey_.size(), [&](std::size_t s) { survey_[s] = totals_of_set(static_cast<int>(s)); });
   ranks_->share(grid_, survey_);
   surveyed_ = steps();
 }

@@ -52,12 +52,19 @@ Totals& Totals::operator+=(const Totals& other) {
   internal += other.internal;
   for (std::size_t a = 0; a < 3; ++a) momentum[a] += other.momentum[a];
   angular_momentum += other.angular_momentum;
+  deviatoric += other.deviatoric;
   return *this;
 }
 
 Totals Simulation::totals_of_set(int s) const {
-  if (s < mesh_sets()) return totals_of_mesh(s);
-  if (s < first_points()) return totals_of_particles(s);
+  Totals t = s < mesh_sets()      ? totals_of_mesh(s)
+             : s < first_points() ? totals_of_particles(s)
+                                  : totals_of_patch(s);
+  t.deviatoric = deviatoric_energy_of_set(s);
+  return t;
+}
+
+Totals Simulation::totals_of_patch(int s) const {
   const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
   const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
   const double h = geometry_of(s).h, moment = Support::moment * h * h;
@@ -119,28 +126,13 @@ double Simulation::deviatoric_energy_of_set(int s) const {
 
 /// Of all sets, in their order.
 std::vector<Totals> Simulation::totals_by_set() const {
-  std::vector<Totals> out(static_cast<std::size_t>(set_count()));
   if (ranks_ && !assembled_) {
     survey_together();
-    for (std::size_t s = 0; s < out.size(); ++s) out[s] = survey_[s].totals;
-    return out;
+    return survey_;
   }
+  std::vector<Totals> out(static_cast<std::size_t>(set_count()));
   for_each(out.size(), [&](std::size_t s) { out[s] = totals_of_set(static_cast<int>(s)); });
   return out;
-}
-
-double Simulation::deviatoric_energy() const {
-  double sum = 0;
-  if (ranks_ && !assembled_) {
-    survey_together();
-    for (const SetSums& set : survey_) sum += set.deviatoric;
-    return sum;
-  }
-  std::vector<double> sets(static_cast<std::size_t>(set_count()));
-  for_each(sets.size(),
-           [&](std::size_t s) { sets[s] = deviatoric_energy_of_set(static_cast<int>(s)); });
-  for (const double set : sets) sum += set;
-  return sum;
 }
 
 std::vector<Totals> Simulation::totals_by_body() const {

@@ -31,6 +31,7 @@ struct Totals {
   std::array<double, 3> momentum{};
   double angular_momentum =
       0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
+  double deviatoric = 0;  ///< elastic energy of the deviator [J]
 
   Totals& operator+=(const Totals& other);
 };
@@ -39,12 +40,6 @@ struct Totals {
 struct BroughtPoints {
   std::vector<PointPlace> places;
   std::vector<int> levels;
-};
-
-/// Sums over the points of one set.
-struct SetSums {
-  Totals totals;
-  double deviatoric = 0;  ///< elastic energy of the deviator [J]
 };
 
 /// What a fault means, in words.
@@ -124,8 +119,7 @@ class Simulation {
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
   std::vector<Totals> totals_by_body() const;
-  double deviatoric_energy() const;  ///< elastic [J]
-  Totals totals() const;             ///< of all bodies
+  Totals totals() const;  ///< of all bodies
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
   /// All points, in sets of one body; the order is part of the state. First elements, then
@@ -199,6 +193,7 @@ class Simulation {
   void restore_mesh(int body, const Checkpoint& checkpoint);
   std::unique_ptr<NodeLoads> make_loads();
   Totals totals_of_set(int s) const;
+  Totals totals_of_patch(int s) const;
   double deviatoric_energy_of_set(int s) const;
   int count_of(int s) const;  ///< points of a set, on whatever rank
   void copy_column(int body, int slot, double* to) const;
@@ -257,10 +252,10 @@ class Simulation {
   std::unique_ptr<Distribution> ranks_;  ///< null: one rank has all
   struct Slabs;  ///< points of one body by their ids, where ranks write together
   mutable std::unique_ptr<Slabs> slabs_;
-  mutable std::vector<SetSums> survey_;  ///< where points are elsewhere ...
-  mutable std::int64_t surveyed_ = -1;   ///< ... and of which step
-  bool together_ = false;                ///< the ranks have begun
-  bool assembled_ = false;               ///< points of other ranks are on the first, too
+  mutable std::vector<Totals> survey_;  ///< where points are elsewhere ...
+  mutable std::int64_t surveyed_ = -1;  ///< ... and of which step
+  bool together_ = false;               ///< the ranks have begun
+  bool assembled_ = false;              ///< points of other ranks are on the first, too
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;
