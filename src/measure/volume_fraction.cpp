@@ -153,11 +153,12 @@ std::optional<LineEdge> unbounded_edge(const FractionLine& line) {
 }  // namespace
 
 std::optional<LineEdge> outer_edge(const FractionLine& line) {
+  int last = static_cast<int>(line.phi.size()) - 1;
+  while (last >= 0 && line.phi[index(last)] <= 0) --last;
+  if (last < 0) return std::nullopt;  // a gap: of a band of it nothing is full, neither
   std::optional<LineEdge> found = unbounded_edge(line);
   if (!found) return found;
   // Content is a length only where phi is at most about 1; no point reaches beyond its last node.
-  int last = static_cast<int>(line.phi.size()) - 1;
-  while (line.phi[index(last)] <= 0) --last;
   found->place = std::min(found->place, line.spacing * last);
   return found;
 }

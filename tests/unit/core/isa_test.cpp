@@ -36,6 +36,16 @@ namespace {
 
 }  // namespace
 
+// What a sanitized build, which has no other level, and another processor are held to.
+TEST_CASE("the portable level has the bits on record") {
+  unsigned long long found[4];
+  krater_digest_isa_portable(found);
+  CHECK(found[0] == 0xed6c221cbeed43d5ULL);
+  CHECK(found[1] == 0x93878ca8c43dbf7cULL);
+  CHECK(found[2] == 0x52c20dbef375f686ULL);
+  CHECK(found[3] == 0x1e70571b794037cdULL);
+}
+
 #ifdef KRATER_HAVE_V3
 TEST_CASE("x86-64-v3 has the bits of the portable level") {
   if (has_v3())

@@ -21,8 +21,10 @@ constexpr MaterialConstants kConcrete{2440.0, 14.86e9, 293.0};
 constexpr double kF = 48e6, kT = 4e6;
 
 HolmquistJohnsonCook law(double reading = 0.0) {
-  const double values[] = {kF, 0.79, 1.6,  0.61,  0.007, 1.0,     7.0,  0.04,   1.0,  0.01,
-                           kT, 16e6, 1e-3, 0.8e9, 0.1,   reading, 85e9, -171e9, 208e9};
+  const double values[parameter_count<HolmquistJohnsonCook>] = {
+      // the rest: options, off
+      kF, 0.79, 1.6,  0.61,  0.007, 1.0,     7.0,  0.04,   1.0,  0.01,
+      kT, 16e6, 1e-3, 0.8e9, 0.1,   reading, 85e9, -171e9, 208e9};
   return make_law<HolmquistJohnsonCook>(values, kConcrete);
 }
 
