@@ -187,6 +187,11 @@ StreamedFile::StreamedFile(const std::string& path, Kind kind)
   require(handle_.id(), "file");
 }
 
+StreamedFile::~StreamedFile() {
+  const QuietErrors quiet;
+  handle_ = Handle{};
+}
+
 void StreamedFile::close() {
   const QuietErrors quiet;
   require(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), "flush");
