@@ -111,8 +111,8 @@ class StreamedFile : public Node {
   explicit StreamedFile(const std::string& path, Kind kind = Kind::plain);
   /// Not closed when something was thrown: HDF5 still writes to its part, which must be there.
   ~StreamedFile();
-  StreamedFile(const StreamedFile&) = delete;
-  StreamedFile& operator=(const StreamedFile&) = delete;
+  StreamedFile(StreamedFile&&) = default;
+  StreamedFile& operator=(StreamedFile&&) = default;
   void close();   ///< nothing is added any more; the rest of the work needs no HDF5
   void commit();  ///< once, closed
 
