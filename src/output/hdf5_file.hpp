@@ -112,7 +112,7 @@ class StreamedFile : public Node {
   /// Not closed when something was thrown: HDF5 still writes to its part, which must be there.
   ~StreamedFile();
   StreamedFile(StreamedFile&&) = default;
-  StreamedFile& operator=(StreamedFile&&) = default;
+  StreamedFile& operator=(StreamedFile&&) = delete;
   void close();   ///< nothing is added any more; the rest of the work needs no HDF5
   void commit();  ///< once, closed
 
