@@ -93,8 +93,8 @@ void copy_component(const PointStore& points, int slot, std::size_t times, doubl
     // Some lines of every record: the processor does not foresee it.
     __builtin_prefetch(lanes + 4 * points.stride());
     const int count = std::min(kLanes, points.count() - kLanes * g);
-    if (times == 1) {
-      to = std::copy_n(lanes, count, to);
+    if (times == 1 && count == kLanes) {
+      to = std::copy_n(lanes, kLanes, to);
       continue;
     }
     for (int lane = 0; lane < count; ++lane) to = std::fill_n(to, times, lanes[lane]);
@@ -102,12 +102,14 @@ void copy_component(const PointStore& points, int slot, std::size_t times, doubl
 }
 
 void copy_vector(const PointStore& points, int slot, int dim, std::size_t times, Triple* to) {
-  for (int i = 0; i < points.count(); ++i) {
-    const double* point = points.point(i) + kLanes * slot;
-    __builtin_prefetch(point + 4 * points.stride());
-    Triple values{};
-    for (int a = 0; a < dim; ++a) values[static_cast<std::size_t>(a)] = point[kLanes * a];
-    to = std::fill_n(to, times, values);
+  for (int g = 0; g < points.groups(); ++g) {
+    const double* lanes = points.point(kLanes * g) + kLanes * slot;
+    for (int a = 0; a < dim; ++a) __builtin_prefetch(lanes + kLanes * a + 4 * points.stride());
+    const double* last = lanes + kLanes * (dim - 1);
+    const int count = std::min(kLanes, points.count() - kLanes * g);
+    for (int lane = 0; lane < count; ++lane)
+      to = std::fill_n(to, times,
+                       Triple{lanes[lane], lanes[kLanes + lane], dim == 3 ? last[lane] : 0.0});
   }
 }
 
