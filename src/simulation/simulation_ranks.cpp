@@ -63,7 +63,7 @@ void Simulation::plan_ranks() {
   if (const std::string what = undistributed(scene_, bodies_); !what.empty())
     throw InputError(what +
                      " cannot be computed on several ranks yet; start krater without mpirun: it "
-                     "uses all cores of one machine");
+                     "uses the cores of one machine");
   ranks_ =
       std::make_unique<Distribution>(geometry_.dimension, reach(scene_), columns_of(kernel_data_));
 }
