@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs scenes made by chance (random_support.py) and says what became of each. Not a test.
 
-    tests/scene/random_runs_support.py N --seed S [--finer] [-j J] [-o DIR]        (tools/hard --random)
+    tests/scene/random_runs_support.py N --seed S [--finer] [--smaller] [-j J] [-o DIR]   (tools/hard --random)
 
 classes: sound (energy error below 1 %), loose (below 10 %), poor (above), failed (exit 3, which says why and where), refused
 (exit 2 with the key), broken: a signal, a hang, silence, a number that is none, a ledger that does not close, energy from nowhere
@@ -30,6 +30,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from random_support import finite, numbers, scene, write
+from random_smaller_support import smaller
 from scene_support import KRATER, ODD, ROOT, environment, history, summary
 
 ORDER = ["sound", "loose", "poor", "failed", "refused", "broken"]
@@ -105,12 +106,15 @@ def words_of(said):
 
 def fate_of(seed, folder, timeout=600):
     """Checks and runs the scene of a seed in `folder`."""
+    return fate_of_scene(seed, write(seed, folder), str(pathlib.Path(folder, f"{seed}_out")), timeout)
+
+
+def fate_of_scene(seed, path, out, timeout=600):
     begin = time.monotonic()
 
     def fate(kind, why=""):
         return Fate(seed, kind, why, time.monotonic() - begin)
 
-    path, out = write(seed, folder), str(pathlib.Path(folder, f"{seed}_out"))
     code, said = execute("check", path, timeout=timeout)
     if code == 2 and re.search(r"\.yaml:\d+: \w", said):
         return fate("refused", words_of(said)[0])
@@ -160,6 +164,21 @@ def finer_errors(seed, folder, timeout=600):
     return [error_with(seed, times, folder, timeout) for times in ((2,) if scene(seed)["frame"] == "3d" else (2, 4))]
 
 
+def minimised(seed, folder):
+    """The seed's scene without what its fate does not need, as a file beside it; returns the file and what went."""
+    path, out = pathlib.Path(folder, f"{seed} small.yaml"), pathlib.Path(folder, f"{seed}_small_out")
+
+    def fate(tree):
+        path.write_text(json.dumps(tree, indent=1), encoding="utf-8")
+        shutil.rmtree(out, ignore_errors=True)
+        return fate_of_scene(seed, path, str(out))
+
+    tree, gone = smaller(scene(seed), fate)
+    fate(tree)
+    shutil.rmtree(out, ignore_errors=True)
+    return path, gone
+
+
 def percent(error):
     return "-" if error is None else f"{100 * error:.1f}"
 
@@ -201,6 +220,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1000, help="the first (default: %(default)s)")
     parser.add_argument("-j", type=int, default=min(os.cpu_count() or 1, 2), metavar="N", help="runs at a time")
     parser.add_argument("-o", metavar="DIR", help="where scenes that are not sound stay (default: a folder of /tmp)")
+    parser.add_argument("--smaller", action="store_true", help="of what is poor, failed or broken, the least scene that is so too")
     parser.add_argument("--finer", action="store_true", help="what is loose or poor again with half and a quarter of the cell")
     options = parser.parse_args()
     folder = options.o or tempfile.mkdtemp(prefix="krater random ")
@@ -215,6 +235,10 @@ def main():
         if fate.kind in ("loose", "poor"):
             errors = [fate.error, *finer_errors(fate.seed, folder)]
             print(f"{fate.seed:7} {', '.join(map(percent, errors))} % with the cell, its half and quarter: {fate.why[:100]}", flush=True)
+    for fate in fates if options.smaller else ():
+        if fate.kind in ("poor", "failed", "broken"):
+            path, gone = minimised(fate.seed, folder)
+            print(f"{fate.seed:7} is so in '{path}' too, without {', '.join(gone) or 'nothing'}", flush=True)
     print(f"{len(fates)} scenes from seed {options.seed}: {counts(fates)}; {ledger(fates)}; what is not sound lies in {folder}")
     sys.exit(1 if any(fate.kind == "broken" for fate in fates) else 0)
 
