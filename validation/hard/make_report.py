@@ -18,10 +18,11 @@ import random_runs_support as chance  # noqa: E402
 import expectations  # noqa: E402
 import hard_cases  # noqa: E402
 import hard_invariance  # noqa: E402
+from petals import petals  # noqa: E402
 from validate_impacts import discussion  # noqa: E402
 from validate_runs import Run, Study, cards, digest  # noqa: E402
 
-ESTIMATED_SECONDS = 1200  # on two quiet cores
+ESTIMATED_SECONDS = 2000  # on two quiet cores
 ELSEWHERE = [
     ("cone's tip on the axis, at three cells", "tests/scene/faults, b05"), ("Whipple shield", "faults 02; validation/energy"),
     ("Noh, Sod, Sedov", "faults b10, sod, b11; validation/energy"), ("two spheres at 30 km/s", "fault b13"),
@@ -178,6 +179,7 @@ def main():
     misses_of(study, outcomes)
     looks(study)
     by_chance(study)
+    petals(study)
     discussion(study)
     pictures(study)
     study.add("## Held elsewhere")
