@@ -42,14 +42,14 @@ WHY = {  # by seed, of those that are not sound
     5024: "a light rigid sphere strikes elastic elements with a few nodes, of its own mass",
     5028: "a piston at 122 m/s stops one layer of glass", 5030: "rubber between rigid and sticking: one layer",
     5033: "particles on a jittered lattice: what holds them turns the scatter behind the wave into heat, whatever the cell",
-    5035: "linear functions by musl and flip at 3 km/s: points cross cells in two steps, densities leave the law's range",
+    5035: "linear functions by musl and flip at 3 km/s: densities leave the law's range",
     5040: "rubber and a sticking side: one layer", 5041: "a piston reaches a plate of particles by its kernel; with half the cell it does not",
     5042: "elastic bodies that meet at 5 m/s: one layer", 5047: "xpic, whose filter takes what a collision at 150 m/s leaves in single points",
     5049: "rubber on elements, 83 m/s: one layer", 5062: "concrete without heat, 0.8 km/s, against points and a rigid body",
     5071: "rubber, steel with a linear pressure, 250 m/s: one layer",
     5082: "driven sides move along a sticking one, which holds nodes of elements: what lies between is squeezed to nothing after 1 mm",
     5087: "concrete without heat, 1.5 km/s", 5094: "concrete without heat, 1.5 km/s, against a wall"}
-RIGID = "a free rigid body runs into a side with a condition"
+RIGID = "a rigid body runs into a side with a condition"
 PICTURES = [("bars", "4 km/s", "final_shape.png", "bars.png", "Two bars at 4 km/s after 14 us."),
             ("shear", "tflip", "final_shape.png", "shear.png", "The sheared layer at a shear of 20: plastic strain."),
             ("long_rod", "run", "final_shape.png", "long_rod.png", "The long rod at 60 degrees after 50 us."),

@@ -123,15 +123,15 @@ def petals_of(places, cell):
 
 
 def picture(study, shown):
-    figure, axes = plt.subplots(2, 3, figsize=(10, 6.6), constrained_layout=True)
+    figure, axes = plt.subplots(2, 3, figsize=(9, 6), constrained_layout=True)
     for axis, (label, run) in zip(axes.flat, shown):
         places = last_frame(run)[0]
         whole = np.concatenate([places * (sx, sy, 1) for sx in (1, -1) for sy in (1, -1)])
         whole = whole[np.argsort(-whole[:, 2])]
-        dots = axis.scatter(whole[:, 0] * 1e3, whole[:, 1] * 1e3, c=whole[:, 2] * 1e3, s=3, vmin=-14, vmax=0, linewidths=0)
-        axis.set(title=label, xlim=(-16, 16), ylim=(-16, 16), aspect="equal", xlabel="x, mm")
+        dots = axis.scatter(whole[:, 0] * 1e3, whole[:, 1] * 1e3, c=whole[:, 2] * 1e3, s=2, vmin=-14, vmax=0, linewidths=0)
+        axis.set(title=label, xlim=(-13, 13), ylim=(-13, 13), aspect="equal", xlabel="x, mm")
     figure.colorbar(dots, ax=axes, label="z, mm")
-    figure.savefig(os.path.join(study.folder, "petals.png"), dpi=110)
+    figure.savefig(os.path.join(study.folder, "petals.png"), dpi=75)
     plt.close(figure)
 
 
