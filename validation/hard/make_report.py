@@ -47,7 +47,7 @@ WHY = {  # by seed, of those that are not sound
     5042: "elastic bodies that meet at 5 m/s: one layer", 5047: "xpic, whose filter takes what a collision at 150 m/s leaves in single points",
     5049: "rubber on elements, 83 m/s: one layer", 5062: "concrete without heat, 0.8 km/s, against points and a rigid body",
     5071: "rubber, steel with a linear pressure, 250 m/s: one layer",
-    5082: "driven sides move along a sticking one, which holds nodes of elements: what lies between is squeezed to nothing after 1 mm",
+    5082: "two driven sides to which matter sticks meet at an edge: elements there are squeezed to nothing after 1 mm; with friction 0 it ends well",
     5087: "concrete without heat, 1.5 km/s", 5094: "concrete without heat, 1.5 km/s, against a wall"}
 RIGID = "a rigid body runs into a side with a condition"
 PICTURES = [("bars", "4 km/s", "final_shape.png", "bars.png", "Two bars at 4 km/s after 14 us."),
