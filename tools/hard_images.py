@@ -80,6 +80,8 @@ class Turn:
             raise NotImplementedError(kind)
         if kind == "rotate":
             out["angle"] = -out["angle"] if self.mirrors else out["angle"]
+            if out["axis"][0] == "-":
+                out["axis"], out["angle"] = out["axis"][1], -out["angle"]
         if "shape" in out:
             out["shape"] = self.shape(out["shape"])
         return {kind: out}
@@ -88,6 +90,9 @@ class Turn:
         grid = tree["grid"]
         grid["box"]["min"], grid["box"]["max"] = self.corners(grid["box"]["min"], grid["box"]["max"])
         grid["boundary"] = {self.side(name): self.boundary(kind) for name, kind in grid["boundary"].items()}
+        for one in grid.get("refine", []):
+            if "region" in one:
+                one["region"] = self.shape(one["region"])
         for body in tree["bodies"].values():
             body["shape"] = self.shape(body["shape"])
             if "velocity" in body:
@@ -198,6 +203,10 @@ class Units:
         grid = tree["grid"]
         grid["cell"] *= UNITS["m"]
         grid["box"] = self.lengths(grid["box"])
+        for one in grid.get("refine", []):
+            if "where" in one:
+                raise NotImplementedError("a field has a unit")
+            one.update({key: self.lengths(one[key]) for key in ("region", "margin") if key in one})
         for key in ("end", "max_step", "min_step", "first_step"):
             tree["time"][key] *= UNITS["s"]
         tree["materials"] = {name: self.material(m) for name, m in tree["materials"].items()}

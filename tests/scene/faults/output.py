@@ -198,7 +198,7 @@ def checkpoint_bits(count):
 
 @fault("b18", "a flipped bit in a checkpoint is said to be damage")
 def checkpoint_bit():
-    checkpoint_bits(4)
+    checkpoint_bits(17)  # 52 places
 
 
 @fault("b18-long", "a flipped bit in a checkpoint is said to be damage", long=True)
