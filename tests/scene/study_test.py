@@ -18,9 +18,9 @@ import h5py
 from scene_support import ROOT, Folder, check, command, environment, finish, krater
 from study_support import SCENE, study_of, write
 from answer import Answer
+from ballistic_limit import BallisticLimit, by_cell
 from members import Member, Row, member
 from refinement import Convergence
-from search import BallisticLimit, by_cell
 
 SHOT = """
 frame: axisymmetric

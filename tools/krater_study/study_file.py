@@ -190,8 +190,9 @@ class Study:
 
     def count(self, key, default, most):
         value = self.keys.get(key)
-        if value is None:
-            return default
+        return default if value is None else self.whole(value, key, most)
+
+    def whole(self, value, key, most):
         if not isinstance(value, str) or not value.isdecimal() or len(value) > 9 or not 1 <= int(value) <= most:
             self.fail(key, f"a whole number from 1 to {most} is expected, found {flow(value)}")
         return int(value)
