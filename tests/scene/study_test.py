@@ -21,6 +21,7 @@ from answer import Answer
 from ballistic_limit import BallisticLimit, by_cell
 from members import Member, Row, member
 from refinement import Convergence
+from study_file import Quantity
 
 SHOT = """
 frame: axisymmetric
@@ -273,6 +274,9 @@ def bad_input():
             ("shifts that the sides forbid", base + "repeats: 3\n", "bad.yaml:5: repeats: .*leave repeats out"),
             ("one cell for a limit", LIMIT + "cells: [0.5 mm]\n", "bad.yaml:5: cells: two cells or more"),
             ("a cell twice", LIMIT + "cells: [0.5 mm, 0.45 mm]\n", "bad.yaml:5: cells: .*15 %"),
+            ("shots of two cells of three", LIMIT + "cells: [1 mm, 0.5 mm, 0.25 mm]\nmembers: [4, 4]\n",
+             r"bad.yaml:6: members: one number, or as many as there are cells \(3\)"),
+            ("a finest cell that no scene can have", LIMIT + "cells: [1 mm, 0.001 um]\n", "cell"),
             ("no outcome", "study: ballistic_limit\nscene: plate.yaml\noutcome: shot\nspeed: {}\n",
              "bad.yaml:3: outcome")):
         done = study("bad", text)
@@ -325,6 +329,42 @@ def limit_by_cell():
         check(re.search(words, told.sentences[-1]), f"{what}: {words}", told.sentences)
 
 
+def finer_begin_near():
+    """A finer cell begins where coarser ones point to; wherever its limit is, its own shots bracket it."""
+    def asked(limits, most=20):
+        """{cell: its rows} where shots above limits[cell] perforate; None: they tell nothing."""
+        kind = BallisticLimit.__new__(BallisticLimit)
+        kind.outcome, kind.path, kind.tolerance, kind.cells = "shot", "v", 5.0, list(limits)
+        kind.low, kind.high, kind.most = Quantity(100, "m/s"), Quantity(420, "m/s"), dict.fromkeys(limits, most)
+        rows = []
+        while new := kind.next(rows):
+            for one in new:
+                speed, limit = float(one.values["v"].split()[0]), limits[one.values["grid.cell"]]
+                word = "moving" if limit is None else "perforated" if speed > limit else "stopped"
+                rows.append(Row(one, "done", "", {"outcomes": {"shot": {"outcome": word}}}))
+            check(len(rows) == len({row.member.name for row in rows}) < 70, "no shot is asked twice", rows[-1].member.name)
+        return kind, {cell: kind.of_cell(rows, cell) for cell in kind.cells}
+
+    for what, limits, dear in (("as the cell", (261.3, 221.7, 201.9), 7), ("settled", (261.3, 261.3, 261.3), 7),
+                               ("far below", (261.3, 221.7, 121.9), 11), ("far above", (261.3, 221.7, 391.1), 11),
+                               ("below all", (261.3, 221.7, 90), 7), ("above all", (151.9, 171.3, 430), 7)):
+        kind, found = asked(dict(zip(("0.6 mm", "0.3 mm", "0.2 mm"), limits)))
+        for limit, rows in zip(limits, found.values()):
+            low, high = kind.bracket(rows)
+            inside = 100 < limit < 420
+            check(low < limit < high <= low + 5 if inside else low is None if limit < 100 else high is None,
+                  f"{what}: {limit} is bracketed, or known to be outside", (low, high))
+        check(len(found["0.6 mm"]) > len(found["0.2 mm"]) or not what.startswith(("as", "settled")), f"{what}: fewer dear shots")
+        first = [kind.speed(row) for row in found["0.2 mm"][:2]]
+        check(what != "as the cell" or first[0] < limits[2] < first[1], f"{what}: the first two shots bracket it", first)
+        check(len(found["0.2 mm"]) <= dear, f"{what}: at most {dear} dear shots", len(found["0.2 mm"]))
+    _, found = asked({"0.6 mm": 260, "0.3 mm": None, "0.2 mm": 240})
+    check(len(found["0.3 mm"]) < 10 and len(found["0.2 mm"]) < 10, "a cell that tells nothing is passed over",
+          [len(rows) for rows in found.values()])
+    _, found = asked({"0.6 mm": 260, "0.3 mm": 220}, 3)
+    check([len(rows) for rows in found.values()] == [3, 3], "never more than `members` of a cell")
+
+
 def examples():
     """Those of inputs/studies as they are, but coarse."""
     toy = {"convergence": ("[1.524 mm, 0.762 mm, 0.381 mm, 0.1905 mm]", "[3 mm, 1.5 mm]"), "pareto": ("2, 3", "2"),
@@ -362,5 +402,6 @@ with Folder():
     bad_input()
     limit()
     limit_by_cell()
+    finer_begin_near()
     examples()
 finish()
