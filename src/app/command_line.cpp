@@ -47,6 +47,7 @@ std::vector<std::string> words_of_accuracy(const RunOptions& options) {
     if (!value.empty()) words.insert(words.end(), {key, value});
   };
   add("--budget", options.budget);
+  add("--measures", options.measures);
   add("-o", options.output);
   if (options.threads > 0) add("-j", std::to_string(options.threads));
   for (const std::string& setting : options.overrides) add("--set", setting);
@@ -173,6 +174,10 @@ int command_line(int argc, char** argv) {
   json->excludes(accuracy);
   run_command
       ->add_option("--budget", options.budget, "wall time for --accuracy, as 20min (the default)")
+      ->needs(accuracy);
+  run_command
+      ->add_option("--measures", options.measures,
+                   "those that --accuracy must reach, as length,width (default: all)")
       ->needs(accuracy);
   CLI::App* check_command =
       app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
