@@ -116,6 +116,30 @@ def resumed():
     check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
 
 
+def stopped_study():
+    """A study that is asked to end: the member goes on later, and has cost both parts."""
+    write("asked.yaml", convergence("[1 mm, 0.5 mm, 0.04 mm]"))
+    process = subprocess.Popen(command("study", "asked.yaml", "-j", 1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                               text=True, env=environment())
+    for line in process.stderr:
+        if "[2/3]" in line:
+            break
+    folder, end = pathlib.Path("asked_study/members"), time.monotonic() + 30
+    while not (folder / "cell=0.04mm/log.txt").exists() and time.monotonic() < end:
+        time.sleep(0.005)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGTERM)
+    _, error = process.communicate()
+    told = json.loads((folder / "cell=0.04mm.json").read_text(encoding="utf-8"))
+    check(process.returncode == 4 and "interrupted; what is done lies in" in error and told["status"] == "interrupted" and
+          told["core_seconds"] > 0.1, "a study that is asked to end books what was spent", told)
+    done = study("asked")
+    after = json.loads((folder / "cell=0.04mm.json").read_text(encoding="utf-8"))
+    alone = json.loads((folder / "cell=0.04mm/summary.json").read_text(encoding="utf-8"))["machine"]["processor_seconds"]
+    check(done.returncode == 0 and after["core_seconds"] > told["core_seconds"] + 0.5 * alone, "and later both parts",
+          (told["core_seconds"], alone, after["core_seconds"]))
+
+
 def killed_member():
     """A member that the system ended, for want of memory mostly, says nothing of its settings: it is tried again."""
     write("short.yaml", convergence("[1 mm, 0.5 mm, 0.05 mm]"))
@@ -394,6 +418,7 @@ with Folder():
     files_of_a_study()
     resumed()
     killed_member()
+    stopped_study()
     failing_member()
     null_in_some()
     fates()

@@ -231,6 +231,7 @@ class Engine:
                 child.stop()
             for child in running:
                 child.wait()
+                self.finish(child)  # what it has cost so far is a part of what it costs
         return rows
 
     def may_start(self, one, running):
