@@ -19,7 +19,7 @@ from scene_support import ROOT, Folder, check, command, environment, finish, kra
 from study_support import SCENE, study_of, write
 from answer import Answer
 from ballistic_limit import BallisticLimit, by_cell
-from members import Member, Row, member
+from members import Member, Row, member, text_of
 from refinement import Convergence
 from study_file import Quantity
 
@@ -342,15 +342,21 @@ def limit_by_cell():
           re.search(r"By the cells 1, 0.5 mm the limit is .* \+- ", done.stdout), "and told together", done.stdout)
     for what, limits, words in (
             ("20, 40, 60 through a plate of 12 mm", (239, 209, 189), "do not answer to 2 %, and where it ends these cells do not"),
-            ("of first order", (240, 215, 206.7), r"0\.6, 0\.3, 0\.2 mm do not answer to 2 %; 0\.0\d+ mm should, about"),
+            ("of first order", (240, 215, 206.7), r"0\.6, 0\.3, 0\.2 mm do not answer to 2 %; 0\.0\d+ mm should, at "),
             ("within their intervals", (200, 201, 200.5), "Every one"),
+            ("out of reach", (340, 260, 245), r"by what they show .* mm would, which is out of reach: halve the finest"),
             ("settled", (201, 200.2, 200), r"Every one of these cells answers to 2 %"),
             ("settled in the end", (240, 200.2, 200), r"^0\.6 mm does not answer to 2 %\."),
             ("wavering", (200, 260, 190), "do not answer to 2 %, and where it ends")):
         told = Answer()
         by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1]} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
-                "m/s", (1e-9, -3.0, 1e-7))
+                "m/s", (1e-4, -3.0, 1e-7))
         check(re.search(words, told.sentences[-1]), f"{what}: {words}", told.sentences)
+
+
+def prices():
+    for seconds, words in ((5.26, "5.3 s"), (90, "1.5 min"), (7200, "2.0 h"), (1e6, "11.6 days"), (4e7, "more than a year")):
+        check(text_of(seconds) == words, f"{seconds:g} s is told as {words}", text_of(seconds))
 
 
 def finer_begin_near():
@@ -427,6 +433,7 @@ with Folder():
     bad_input()
     limit()
     limit_by_cell()
+    prices()
     finer_begin_near()
     examples()
 finish()

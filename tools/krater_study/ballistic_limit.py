@@ -21,7 +21,7 @@ from scipy.special import stdtrit
 
 import pictures
 from answer import Answer, Picture, Table, failed_sentences, number
-from members import member, text_of
+from members import YEAR, member, text_of
 from refinement import CELL, Convergence
 from uncertainty import estimate, levels_of
 
@@ -248,14 +248,23 @@ def by_cell(answer, found, unit, law):
         answer.sentences.append(f"Every one of these cells answers to {100 * TARGET:g} %.")
         return
     line = f"{', '.join(far)} mm do{'es' if len(far) == 1 else ''} not answer to {100 * TARGET:g} %"
-    if len(far) == len(cells) and result.falls_as:
-        cell = min(cells) * (allowed / band) ** (1 / result.falls_as)
-        price = f", about {text_of(law[2] * law[0] * cell ** law[1])} of core time a shot" if law else ""
-        line += f"; {1e3 * cell:.2g} mm should{price}"
-    elif len(far) == len(cells):
-        line += (", and where it ends these cells do not show: halve the finest again, or give the law that softens a length "
-                 "(resolution.md of the manual)" if len(cells) > 2 else "; a third cell would tell what does")
+    if len(far) == len(cells):
+        line += what_would(result.falls_as, min(cells), allowed / band, law, len(cells))
     answer.sentences.append(line + ".")
+
+
+def what_would(order, finest, share, law, count):
+    """The cell at which the band, which falls by `order`, is `share` of the finest cell's; or why there is none."""
+    softens = "give the law that softens a length (resolution.md of the manual)"
+    if not order:
+        return (f", and where it ends these cells do not show: halve the finest again, or {softens}" if count > 2 else
+                "; a third cell would tell what does")
+    cell = finest * share ** (1 / order)
+    price = law[2] * law[0] * cell ** law[1] if law else 0.0
+    if price > YEAR:
+        return (f"; by what they show {1e3 * cell:.1g} mm would, which is out of reach: halve the finest, for that may show more, or "
+                f"{softens}")
+    return f"; {1e3 * cell:.2g} mm should" + (f", at {text_of(price)} of core time a shot" if law else "")
 
 
 def recht_ipson(shots, low, high):
