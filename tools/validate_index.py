@@ -130,6 +130,9 @@ FIGURES = {
                                   f"{r.text.count('| could go |')} of "
                                   f"{r.text.count('| could go |') + r.text.count('| keep |')}"),
     "analyst": lambda r: Figure("an example to the first picture that was asked for", r.cell("^the first picture", "since the start")),
+    "ballistic_limit": lambda r: Figure("limit of 12 mm of Weldox, 30 cells through it (measured 184.5 m/s)",
+                                        r.cell("^0.4$", "^limit m/s") + " m/s",
+                                        r.found(r"lies at [\d.]+ (\+- [\d.e+]+) m/s") + " m/s, band"),
     "calibration": lambda r: Figure("bands that hold the truth (demanded 90 %)",
                                     r.found(r"\*\*([\d.]+ % of \d+) bands")),
     "ccf_bars": lambda r: Figure(

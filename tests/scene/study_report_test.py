@@ -106,9 +106,9 @@ above: 1
 
 ```krater
 demand: cases
-says: more than a million
+says: each more than 300
 value: points
-above: 1e6
+above: 300
 ```
 
 ```krater
@@ -221,7 +221,7 @@ def more():
         check(row[11] == "-", "what a list has not is missing, not an error", row)
     check(re.search(r"\| cfl \| velocity m/s, cell 1 mm \| steps of it, cell 1 mm \| velocity m/s, cell 0.5 mm \| steps of it, cell "
                     r"0.5 mm \|\n[^\n]*\n\| 0.4 \| \S+ \| \d+ \| \S+ \| \d+ \|\n\| 0.5 \|", text), "a table across", text)
-    check("Demanded: more than one point. Found: " in text and "**met**" in text and re.search(r"million. Found: .*missed", text),
+    check("Demanded: more than one point. Found: " in text and "**met**" in text and re.search(r"300. Found: \d+, .*missed", text),
           "a demand from below", text)
     check(re.search(r"\| piece of \| mass g .*\n.*\n\| plate \|", text) and "are not resolved" in text, "pieces", text)
     drawn = re.findall(r"!\[[^\]]*\]\((\S+\.png)\)", text)
@@ -233,8 +233,8 @@ def more():
             ("no such column", ("least(kinetic_energy)", "least(kinetic)"), "no column 'kinetic'.*did you mean"),
             ("no time", ('mean(z, "1 us")', 'mean(z, "1 mm")'), "1 mm"),
             ("nothing across", ("across: grid.cell", "across: grid.sell"), "none of these members varies 'grid.sell'"),
-            ("two bounds", ("above: 1e6", "above: 1e6\nbelow: 2"), "one of `below` and `above`"),
-            ("no bound", ("above: 1e6", "unit: m"), "one of `below` and `above`"),
+            ("two bounds", ("above: 300", "above: 300\nbelow: 2"), "one of `below` and `above`"),
+            ("no bound", ("above: 300", "unit: m"), "one of `below` and `above`"),
             ("no pieces", ("measure: parts", "measure: part"), "no measure 'part' of kind fragments .did you mean parts"),
             ("no point", ("where: front", "where: z > 5"), "no point is there"),
             ("three numbers", ("range: [0, 2]", "range: [0, 2, 3]"), "2 numbers are expected")):
@@ -243,6 +243,8 @@ def more():
               f"refused: {what}", done.text[-300:])
     for what, change, words in (("two cases of one folder", ("as it is: {}", "as it is: {}\n  as_it_is: {}"), "the same folder"),
                                 ("a case of nothing", ("as it is: {}", "as it is: fine"), "what this case changes"),
+                                ("a key that no scene has", ("{grid.cell", "{grid.sell: 1 mm, grid.cell"),
+                                 r"cases.yaml:8: vary.finer, shorter: .*unknown key 'sell'"),
                                 ("a name that is not there", ("{grid.cell", "{bodies.plat.velocity: 0, grid.cell"), "bodies.plat")):
         write("cases.yaml", CASES.replace(*change))
         done = study_of("cases.yaml")

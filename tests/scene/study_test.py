@@ -349,7 +349,7 @@ def limit_by_cell():
             ("settled in the end", (240, 200.2, 200), r"^0\.6 mm does not answer to 2 %\."),
             ("wavering", (200, 260, 190), "do not answer to 2 %, and where it ends")):
         told = Answer()
-        by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1]} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
+        by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1], "shots": [], "core_seconds": 1} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
                 "m/s", (1e-4, -3.0, 1e-7))
         check(re.search(words, told.sentences[-1]), f"{what}: {words}", told.sentences)
 

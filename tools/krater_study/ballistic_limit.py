@@ -178,8 +178,9 @@ class BallisticLimit:
         if len(found) == 1:
             answer.data |= found[0]
         else:
-            answer.data = {"unit": self.low.unit, "cells": found}
-            by_cell(answer, found, self.low.unit, Convergence.cost_law([row for row in rows if row.done]))
+            whole = Answer(data={"unit": self.low.unit, "cells": found})  # what was asked for comes first
+            by_cell(whole, found, self.low.unit, Convergence.cost_law([row for row in rows if row.done]))
+            answer = Answer(whole.sentences + answer.sentences, whole.tables + answer.tables, whole.pictures, whole.data)
         return answer
 
     def limit_of(self, answer, rows, cell):
@@ -212,12 +213,10 @@ class BallisticLimit:
             answer.sentences += [at + line for line in fit_sentences(fit, low, high, unit)]
         drawn = [(v, r if p else 0.0, p) for v, r, p in shots if p is not None]
         if drawn:
-            name = "limit" if cell is None else f"limit_{cell.replace(' ', '')}"
-            answer.pictures.append(Picture(
-                name, f"{at}Residual against impact speed; the band is the fit's confidence interval.",
-                lambda figure: pictures.limit(figure, drawn, fit, unit)))
+            answer.pictures.append(Picture("limit", "Residual against impact speed; the band is the fit's confidence interval.",
+                                           lambda figure: pictures.limit(figure, drawn, fit, unit)))
         return {"cell": next((row.cell for row in done), None), "bracket": [low, high], "unit": unit, "shots": shots,
-                "fit": fit}
+                "fit": fit, "core_seconds": sum(row.cost["core_seconds"] for row in done)}
 
 
 TARGET = 0.02  # of the limit: what an answer by several cells is measured by
@@ -227,9 +226,9 @@ def by_cell(answer, found, unit, law):
     """Do these cells answer the question, and what would? The intervals of the shots are an error of their own."""
     known = [one for one in found if None not in one["bracket"]]
     cells, limits = [one["cell"] for one in known], [0.5 * sum(one["bracket"]) for one in known]
-    answer.tables.append(Table("Limit by cell", ["cell mm", f"limit {unit}", f"bracket {unit}"], [
-        [number(1e3 * cell), number(limit), f"{one['bracket'][0]:.5g} to {one['bracket'][1]:.5g}"]
-        for cell, limit, one in zip(cells, limits, known)]))
+    answer.tables.append(Table("Limit by cell", ["cell mm", f"limit {unit}", f"bracket {unit}", "shots", "core-seconds"], [
+        [number(1e3 * cell), number(limit), f"{one['bracket'][0]:.5g} to {one['bracket'][1]:.5g}", str(len(one["shots"])),
+         number(one["core_seconds"], 3)] for cell, limit, one in zip(cells, limits, known)]))
     if len(known) < 2:
         answer.sentences.append("Fewer than two cells have a limit: nothing is known of the error of the cell.")
         return
@@ -239,6 +238,9 @@ def by_cell(answer, found, unit, law):
         band = width
         result.behaviour, result.order = "differs by less than its intervals are wide (a smaller speed.tolerance tells more)", None
     answer.data |= {"limit": result.value, "uncertainty": band, "how": result.how}
+    answer.pictures.append(Picture("limit", "Left: residual against impact speed, with the fits; crosses: not perforated. Right: the limit of "
+                                   "each cell with its shots' interval; shaded: where the limit of small cells lies in nine of ten cases.",
+                                   lambda figure: pictures.limits(figure, known, limits, band, unit)))
     told = ", ".join(number(limit) for limit in limits)
     answer.sentences.append(f"By the cells {', '.join(number(1e3 * cell) for cell in cells)} mm the limit is {told} {unit}: it "
                             f"{result.how}, and lies at {result.value:.4g} +- {band:.2g} {unit}.")

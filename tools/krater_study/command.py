@@ -117,9 +117,11 @@ def locate(study, error):
             for name in study.block(key):
                 if name == path or path == f"references.{name}":
                     return InputError(f"{study.path}:{study.line(f'{key}/{name}')}: {key}.{name}: {message}")
-        for name, changes in study.block("effects").items():
-            if path in changes:
-                return InputError(f"{study.path}:{study.line(f'effects/{name}/{path}')}: effects.{name}: {message}")
+        named = [("effects", study.block("effects"))] + [("vary", study.block("vary"))] * (study.keys.get("design") == "cases")
+        for key, block in named:
+            for name, changes in block.items():
+                if path in changes:
+                    return InputError(f"{study.path}:{study.line(f'{key}/{name}/{path}')}: {key}.{name}: {message}")
         if "speed" in study.keys:
             return InputError(f"{study.path}:{study.line('speed/path')}: speed.path: {message}")
     return error
