@@ -391,6 +391,14 @@ def finer_begin_near():
     _, found = asked({"0.6 mm": 260, "0.3 mm": None, "0.2 mm": 240})
     check(len(found["0.3 mm"]) < 10 and len(found["0.2 mm"]) < 10, "a cell that tells nothing is passed over",
           [len(rows) for rows in found.values()])
+    kind, found = asked({"0.6 mm": 260, "0.3 mm": 120}, 2)
+    rows = found["0.3 mm"][1:]
+    check("below " + kind.low.text(kind.speed(rows[0])) in kind.outside(rows, None, kind.speed(rows[0])) and
+          "More shots" in kind.outside(rows, None, 1), "a search that was cut short says no more than its shots do")
+    kind, found = asked({"0.6 mm": 90})
+    check("below 100 m/s. Widen" in kind.outside(found["0.6 mm"], None, 100), "one that met the end says so")
+    kind, found = asked({"0.6 mm": 430})
+    check("above 420 m/s. Widen" in kind.outside(found["0.6 mm"], 420, None), "at either end")
     _, found = asked({"0.6 mm": 260, "0.3 mm": 220}, 3)
     check([len(rows) for rows in found.values()] == [3, 3], "never more than `members` of a cell")
 

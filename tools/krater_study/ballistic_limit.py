@@ -183,6 +183,16 @@ class BallisticLimit:
             answer = Answer(whole.sentences + answer.sentences, whole.tables + answer.tables, whole.pictures, whole.data)
         return answer
 
+    def outside(self, done, low, high):
+        """Where a limit lies that shots of one kind alone were asked of."""
+        told = [self.speed(row) for row in done if self.perforated(row) is not None]
+        if not told:
+            return "No shot tells whether it perforated: nothing is known of the limit."
+        fate, end = ("perforated", max(told)) if high is None else ("was stopped", min(told))
+        reached = end >= self.high.number if high is None else end <= self.low.number
+        return (f"No shot {fate}: the limit lies {'above' if high is None else 'below'} {self.low.text(end)}. " +
+                ("Widen speed.between." if reached else "More shots would tell where (the same command goes on; `members` bounds them)."))
+
     def limit_of(self, answer, rows, cell):
         """{bracket, shots, fit, unit} of a cell, told in `answer`."""
         done = [row for row in rows if row.done]
@@ -201,9 +211,7 @@ class BallisticLimit:
                                         "would.")
         fit = None
         if low is None or high is None:
-            missing = "perforated" if high is None else "was stopped"
-            answer.sentences.append(f"{at}No shot between {self.low.text()} and {self.high.text()} {missing}: the limit "
-                                    f"lies {'above' if high is None else 'below'} this interval. Widen speed.between.")
+            answer.sentences.append(at + self.outside(done, low, high))
         else:
             alone = "" if cell else (" That holds for this cell only: give `cells: [...]`, some of them finer, and this "
                                      "study tells whether it answers the question.")
