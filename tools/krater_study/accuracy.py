@@ -17,7 +17,7 @@ import time
 
 import numpy as np
 
-from members import member, read_json, text_of, write_json
+from members import YEAR, member, read_json, text_of, write_json
 from refinement import CELL, Convergence
 from study_file import InputError, Study, load, seconds, suggestion
 from uncertainty import estimate, levels_of
@@ -163,8 +163,9 @@ class Accuracy(Convergence):
             line = f"{name} is not known to {100 * self.target:g} %: {value} can be had at {1e3 * finest:.4g} mm"
             cell = self.needed(found, finest) if found.known else None
             if cell and law:
-                price = text_of(law[2] * law[0] * cell ** law[1])
-                line += f"; {1e3 * cell:.3g} mm should reach it in about {price} of core time"
+                price = law[2] * law[0] * cell ** law[1]
+                line += (f"; by what these cells show {1e3 * cell:.1g} mm would reach it, which is out of reach" if price > YEAR else
+                         f"; {1e3 * cell:.3g} mm should reach it in about {text_of(price)} of core time")
             elif found.known:
                 line += f"; it {found.behaviour} and no refinement is seen to help"
             said.append(line + ".")
