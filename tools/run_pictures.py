@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from plot_run_raster import Fraction, Raster
 from plot_run_shapes import Colouring, draw_section, limits
 from run_reader import Run, read_history
+from units import said, scale_of
 
 REFERENCE = {"color": "#d6006c", "ls": (0, (6, 3)), "lw": 1.2}
 
@@ -117,22 +118,71 @@ def outlines(rows, time, boxes=(None,), title=""):
     return figure
 
 
-def histories(rows, columns, unit, factor=1.0, lines=(), title=""):
-    """Columns {name: words} of the histories over time; lines: (value, words) across the picture."""
+def histories(rows, columns, unit, factor=1.0, lines=(), title="", values=None, span=None):
+    """Columns {name: words} of the histories over time; lines: (value, words) across the picture; `values(folder,
+    name)` where a column is no column of the history; span: least and largest value that is shown."""
     figure = Figure(figsize=(8, 4.6), layout="constrained")
     axes = figure.subplots()
     styles = dict(zip(columns, ("-", "--", ":", "-.")))
+    read = {folder: read_history(f"{folder}/history.csv") for folder in rows.values()}
+    scale, second = scale_of(max(history["time"][1][-1] for history in read.values()), "s")
     for k, (name, folder) in enumerate(rows.items()):
-        history = read_history(f"{folder}/history.csv")
         for column, words in columns.items():
-            axes.plot(1e6 * history["time"][1], factor * history[column][1], styles[column], color=f"C{k}", lw=1.4,
+            found = values(folder, column) if values else read[folder][column][1]
+            axes.plot(read[folder]["time"][1] / scale, factor * found, styles[column], color=f"C{k}", lw=1.4,
                       label=f"{words}, {name}" if words else name)
     for number, words in lines:
         axes.axhline(number, label=words, **REFERENCE)
-    axes.set_xlabel("time [µs]")
+    axes.set_xlabel(f"time [{second}]")
     axes.set_ylabel(unit)
+    if span:
+        axes.set_ylim(*span)
     axes.legend(frameon=False, fontsize=9)
     axes.set_title(title)
+    bare(axes)
+    return figure
+
+
+def bare(axes):
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def scatter(rows, times, values, labels, span=None, box=None, lines=(), title=""):
+    """Points of runs: `values(folder, time)` gives (time, {"x": ..., "y": ..., "colour": ...}). With colours runs in rows
+    and times in columns, x and y alike (`box`: x, x, y, y; span: of the colours); else all in one picture (span: of y)."""
+    if "colour" not in labels:
+        figure = Figure(figsize=(8, 4.6), layout="constrained")
+        axes = figure.subplots()
+        for name, folder in rows.items():
+            for time in times:
+                at, found = values(folder, time)
+                label = name if len(times) == 1 else f"{name}, {said(at, 's')}"
+                axes.plot(found["x"], found["y"], ".", ms=3, label=label)
+        for number, words in lines:
+            axes.axhline(number, label=words, **REFERENCE)
+        axes.set(xlabel=labels["x"], ylabel=labels["y"], title=title)
+        if box:
+            axes.set(xlim=box[:2], ylim=box[2:])
+        axes.legend(frameon=False, fontsize=9)
+        bare(axes)
+        return figure
+    figure = Figure(figsize=(3.4 * len(times) + 1.2, 3.5 * len(rows) + 0.6), layout="constrained")
+    grid = figure.subplots(len(rows), len(times), squeeze=False, sharex=True, sharey=True)
+    every = {(name, time): values(folder, time) for name, folder in rows.items() for time in times}
+    low, high = span or (min(found["colour"].min(initial=0) for _, found in every.values()),
+                         max(found["colour"].max(initial=0) for _, found in every.values()))
+    for line, name in zip(grid, rows):
+        for axes, time in zip(line, times):
+            at, found = every[name, time]
+            drawn = axes.scatter(found["x"], found["y"], c=found["colour"], s=2, linewidths=0, cmap="viridis", vmin=low, vmax=high)
+            axes.set_aspect("equal")
+            if box:
+                axes.set(xlim=box[:2], ylim=box[2:])
+            axes.set_title(textwrap.fill(f"{name}, {said(at, 's')}", 38), fontsize=9)
+        line[0].set_ylabel(labels["y"])
+    for axes in grid[-1]:
+        axes.set_xlabel(labels["x"])
+    figure.colorbar(drawn, ax=grid, fraction=0.03, label=labels["colour"])
+    figure.suptitle(title)
     return figure

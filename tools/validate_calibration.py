@@ -13,6 +13,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import j0, j1
 
+import validate_calibration_more as more
 from validate_energy import MATERIALS, NOH_SIDES, behind_shock
 from validate_energy_exact import sod_exact
 
@@ -27,10 +28,14 @@ class Problem:
     measures: dict  # name -> (YAML, exact)
     cells: tuple = FINE
     free: bool = False  # no axis has conditions at both sides: cells may be a few per cent off
+    asked: dict = None  # measures of the scene (YAML), where they are not the ones that are judged
+    found: object = None  # (run, name) -> value, where it is no measure of the scene
+    point: bool = False  # a file for `krater point`, cells are steps, measures columns of point.csv at the end
 
     def text(self, cells):
-        return self.scene(cells) + "measures:\n" + "".join(
-            f"  {name}: {{{kind}}}\n" for name, (kind, _) in self.measures.items())
+        asked = self.asked or {name: kind for name, (kind, _) in self.measures.items()}
+        return self.scene(cells) + ("" if self.point else "measures:\n" + "".join(
+            f"  {name}: {{{kind}}}\n" for name, kind in asked.items()))
 
 
 def mean(body, field, region=""):
@@ -262,8 +267,21 @@ def solutions():
             "motion": ("kind: kinetic_energy, body: body", 0.5 * spin * 100)}, kinematics, (4, 8, 16))
 
 
+def others():
+    """Hertz, Verney, and isentropes of Algorithm 1."""
+    scene, asked, exact, found = more.hertz_wall()
+    yield Problem("sphere on a wall (Hertz)", scene, {name: (None, value) for name, value in exact.items()}, (10, 20, 40, 80),
+                  asked=asked, found=found)
+    scene, measures = more.verney()
+    yield Problem("shell that collapses (Verney)", scene, measures, (10, 20, 40, 80))
+    for name, law in (("gas", (1.4, 0.0, 1.2, 1e5, 300.0)), ("stiffened gas", (3.8, 20.805e9, 2785.0, 1e5, 1000.0))):
+        scene, exact = more.release(*law)
+        yield Problem(f"release of a {name} (Algorithm 1)", scene, {column: (None, value) for column, value in exact.items()},
+                      (5, 10, 20, 40), point=True)
+
+
 def problems():
     return [*(shock(name, u) for name, u in zip(MATERIALS, (1000, 2000, 3000, 1500))), shock("copper", 500),
             *map(noh, NOH_SIDES), sod(), bar_mode(), bar_wall(), plastic_wall(), bars("equal", K),
             bars("unequal", 0.3 * K), gas_wall(), pushed(), breathing("sphere"), breathing("cylinder"),
-            *solutions()]
+            *solutions(), *others()]

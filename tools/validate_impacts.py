@@ -5,13 +5,10 @@ import os
 
 import matplotlib
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import run_pictures  # noqa: E402
-from plot_run_shapes import view_from_outside  # noqa: E402
-from run_pictures import Scale, nearest  # noqa: E402, F401
-from run_reader import Run as Shapes  # noqa: E402
+from run_pictures import Scale  # noqa: E402, F401
 
 COST_TITLES = ["points", "steps", "energy error %", "change of momentum", "memory MB", "wall time s (threads)"]
 
@@ -55,25 +52,6 @@ def shapes(study, rows, times, target, scale, box=None, title="", pixels=700):
             os.path.join(study.folder, target), dpi=110)
 
 
-def outside(study, runs, time, target, scale, title="", **view):
-    """{name: run} seen from outside, lit."""
-    runs = {name: run for name, run in runs.items() if run}
-    if not runs:
-        return
-    figure, line = plt.subplots(1, len(runs), squeeze=False, layout="constrained",
-                                figsize=(6.2 * len(runs) + 0.8, 5.6))
-    for axes, (name, run) in zip(line[0], runs.items()):
-        run_shapes = Shapes(run.folder)
-        colouring = scale(run_shapes)
-        number = nearest(run_shapes, time)
-        view_from_outside(axes, run_shapes.bodies(number), colouring, 1e-3, **view)
-        axes.set_title(f"{name}, {1e6 * run_shapes.time(number):.4g} µs")
-    colouring.bar(figure, ax=line, fraction=0.03)
-    figure.suptitle(title)
-    figure.savefig(os.path.join(study.folder, target), dpi=110)
-    plt.close(figure)
-
-
 def histories(study, runs, columns, target, unit, factor=1.0, lines=(), title=""):
     """Columns of the history of {name: run} over time; lines: (value, words) across the picture."""
     run_pictures.histories(named(runs), columns, unit, factor, lines, title).savefig(
@@ -86,18 +64,3 @@ def discussion(study):
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:
             study.add(file.read().strip())
-
-
-def fragments(study, run, name, most=8):
-    """Table of the pieces of a run, the heaviest first, and what is too small to be resolved."""
-    found = run.summary.get("fragments", {}).get(name) if run else None
-    if not found:
-        return
-    rows = [[piece["body"], f"{1e3 * piece['mass']:.3f}", piece["points"],
-             f"{piece['velocity']['z']:.1f}", " x ".join(f"{1e3 * s:.1f}" for s in piece["size"].values())]
-            for piece in found["pieces"][:most]]
-    study.add_table(["piece of", "mass g", "points", "velocity z m/s", "size mm"], rows)
-    dust, left = found["dust"], len(found["pieces"]) - most
-    study.add((f"{left} more pieces. " if left > 0 else "") +
-              f"Pieces of fewer than {found['least_points']} points are not resolved: {dust['pieces']} of them, "
-              f"{1e3 * dust['mass']:.3f} g together.")

@@ -47,6 +47,7 @@ std::vector<std::string> words_of_accuracy(const RunOptions& options) {
     if (!value.empty()) words.insert(words.end(), {key, value});
   };
   add("--budget", options.budget);
+  add("--measures", options.measures);
   add("-o", options.output);
   if (options.threads > 0) add("-j", std::to_string(options.threads));
   for (const std::string& setting : options.overrides) add("--set", setting);
@@ -141,6 +142,21 @@ bool report_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+/// `krater run --accuracy`, and what only goes with it.
+CLI::Option* add_accuracy(CLI::App& run_command, RunOptions& options) {
+  CLI::Option* accuracy = run_command.add_option(
+      "--accuracy", options.accuracy,
+      "run coarse, then finer cells until every measure is known so well, as 2%");
+  run_command
+      .add_option("--budget", options.budget, "wall time for --accuracy, as 20min (the default)")
+      ->needs(accuracy);
+  run_command
+      .add_option("--measures", options.measures,
+                  "those that --accuracy must reach, as length,width (default: all)")
+      ->needs(accuracy);
+  return accuracy;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
@@ -167,13 +183,7 @@ int command_line(int argc, char** argv) {
   run_command->add_flag("--strict", options.strict, "exit code 5 when the run ends with warnings");
   CLI::Option* json = run_command->add_flag(
       "--json", options.json, "at the end print one JSON object: summary.json and the exit code");
-  CLI::Option* accuracy = run_command->add_option(
-      "--accuracy", options.accuracy,
-      "run coarse, then finer cells until every measure is known so well, as 2%");
-  json->excludes(accuracy);
-  run_command
-      ->add_option("--budget", options.budget, "wall time for --accuracy, as 20min (the default)")
-      ->needs(accuracy);
+  add_accuracy(*run_command, options)->excludes(json);
   CLI::App* check_command =
       app.add_subcommand("check", "read a scene and say what would be computed and what it costs");
   add_scene_options(check_command, options);

@@ -48,9 +48,23 @@ def to_an_accuracy():
     for words, what in ((("--accuracy", "0"), "no number of runs has no error"),
                         (("--accuracy=-1%",), "--accuracy -1%: a share between 0 and 1"), (("--budget", "1s"), "--accuracy"),
                         (("--accuracy", "2%", "--restart", "x.h5"), "goes on by itself"),
+                        (("--measures", "velocity"), "--accuracy"),
+                        (("--accuracy", "2%", "--measures", "velocty"),
+                         "--measures velocty: the scene has no measure 'velocty' (did you mean velocity?"),
                         (("--accuracy", "2%", "--set", "grid.box=1"), "grid.box")):
         done = krater("run", plain, *words)
         check(done.returncode == 2 and what in done.text, f"refused: {' '.join(words)}", done.text)
+
+
+def of_some():
+    """--measures: what is not named may be as rough as it likes, and is told with its band all the same."""
+    plain = write("some.yaml", SCENE)
+    done = krater("run", plain, "--accuracy", "3%", "--measures", "gone", "--budget", "4s", "-o", "gone_out")
+    check(done.returncode in (4, 5) and "gone is not known to 3 %: nothing" in done.stdout, "a measure without value is not reached", done.text)
+    done = krater("run", plain, "--accuracy", "3%", "--measures", "velocity, velocity", "-o", "some_out")
+    told = json.loads(pathlib.Path("some_out/summary.json").read_text(encoding="utf-8"))
+    check(done.returncode == 0 and told["accuracy"]["measures"] == ["velocity"] and
+          "velocity is known to 3 % at" in done.stdout, "the named one is", done.text)
 
 
 def too_dear():
@@ -61,7 +75,7 @@ def too_dear():
                                                        "core_seconds": 1}) for text, cell in cells]
     kind = Accuracy.__new__(Accuracy)
     kind.own, kind.target = Quantity(1, "mm"), 0.001
-    kind.study = types.SimpleNamespace(measures=["rim"])
+    kind.study, kind.named = types.SimpleNamespace(measures=["rim"]), None
 
     def wanted(count, budget):
         kind.engine = types.SimpleNamespace(deadline=time.monotonic() + budget, jobs=1, say=lambda _: None,
@@ -75,5 +89,6 @@ def too_dear():
 
 with Folder():
     to_an_accuracy()
+    of_some()
     too_dear()
 finish()

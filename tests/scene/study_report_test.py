@@ -7,10 +7,12 @@ import os
 import pathlib
 import re
 
+import numpy as np
+
 from scene_support import ROOT, Folder, check, finish
 from study_support import SCENE as PLATE
 from study_support import study_of, write
-import columns
+from expressions import Expression
 import run_pictures
 from members import Member, Row
 from study_file import InputError
@@ -74,6 +76,88 @@ CELLS = "study: convergence\nscene: plate.yaml\nvary: {grid.cell: [1 mm, 0.5 mm,
 LAWS = "study: sweep\nscene: plate.yaml\nmeasures: [velocity]\nvary: {time.energy_error: [off, 1e-12]}\n"
 
 
+MORE = """---
+define:
+  drop: 100 * (at(kinetic_energy, "1 us") / at(kinetic_energy, "0 s") - 1)
+  front: body == "plate" and z < quantile(z, body == "plate", 0) + 0.6e-3
+---
+# More
+
+```krater
+table: cases
+columns: [case, points, {"drop %": drop}, {least J: least(kinetic_energy)}, {at us: '1e6 * when_least(kinetic_energy)'},
+          {twice: 'most(2 * kinetic_energy) / at(kinetic_energy, "0 s")'}, {front mm: '1e3 * mean(z, "1 us", front)'},
+          {all mm: '1e3 * mean(z, "1 us")'}, {top mm: '1e3 * quantile(z, "1 us", x >= 0, 1)'}, {wide mm: '1e3 * spread(z, "1 us")'},
+          {heaviest g: '1e3 * fragments.parts.pieces[0].mass'}, {second g: '1e3 * fragments.parts.pieces[1].mass'}]
+```
+
+```krater
+table: crossed
+columns: [time.cfl, velocity, {steps of it: steps}]
+across: grid.cell
+```
+
+```krater
+demand: cases
+says: more than one point
+value: points
+above: 1
+```
+
+```krater
+demand: cases
+says: each more than 300
+value: points
+above: 300
+```
+
+```krater
+pieces: cases
+measure: parts
+most: 1
+members: as_it_is
+```
+
+```krater
+scatter: cases
+x: {"x [mm]": 1e3 * x}
+y: 1e3 * z
+colour: velocity_z
+where: front
+times: [0 us, 1 us]
+```
+
+```krater
+scatter: cases
+x: z
+y: {"p [GPa]": 1e-9 * pressure}
+times: 1 us
+lines: [{nothing: 0}]
+box: [-0.02, 0.02, -1, 1]
+```
+
+```krater
+histories: cases
+measures: [{"share": 'kinetic_energy / at(kinetic_energy, "0 s")'}]
+range: [0, 2]
+```
+"""
+CASES = """study: sweep
+scene: plate.yaml
+design: cases
+set: {measures.parts: {kind: fragments, body: plate}}
+measures: [velocity]
+vary:
+  as it is: {}
+  "finer, shorter": {grid.cell: 0.25 mm, time.end: 1 us}
+"""
+CROSSED = """study: sweep
+scene: plate.yaml
+measures: [velocity]
+vary: {time.cfl: [0.4, 0.5], grid.cell: [1 mm, 0.5 mm]}
+"""
+
+
 def report(text, *words):
     write("plate.md", text)
     return study_of("plate.md", *words)
@@ -106,6 +190,69 @@ def page():
     set_ = json.loads(next(pathlib.Path("plate_report").glob("runs_out/cells_*/members/cell=1mm/summary.json")).read_text(
         encoding="utf-8"))["machine"]["set"]
     check("time.cfl=0.4" in set_, "what the head sets is laid over every member", set_)
+
+
+def more():
+    """History, points, pieces, cases and tables across: values beside those that the files hold."""
+    from run_reader import Run
+    write("cases.yaml", CASES)
+    write("crossed.yaml", CROSSED)
+    done = report(MORE, "-o", "more")
+    check(done.returncode == 0, "a report of history and points is made", done.text[-600:])
+    text = pathlib.Path("more/README.md").read_text(encoding="utf-8")
+    rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith(("| as it is", "| finer, shorter"))]
+    check(len(rows) == 2 and int(rows[1][1]) > int(rows[0][1]), "cases by their names", rows)
+    for row, name in zip(rows, ("as_it_is", "finer_shorter")):
+        run = Run(next(str(path) for path in pathlib.Path("more").glob(f"runs_out/cases_*/members/{name}")))
+        energy, time = run.history["kinetic_energy"][1], run.history["time"][1]
+        body, = [one for one in run.bodies(run.numbers[-1]) if one.name == "plate"]
+        z, mass = body.x[:, 2], body.values("mass")
+        every = [(one.x[:, 2], one.values("mass")) for one in run.bodies(run.numbers[-1])]
+        heights, masses = (np.concatenate(part) for part in zip(*every))
+        front = z < z.min() + 0.6e-3
+        mean = np.average(heights, weights=masses)
+        for k, what, wanted in (
+                (2, "change over the history", 100 * (np.interp(1e-6, time, energy) / energy[0] - 1)), (3, "least", energy.min()),
+                (4, "when", 1e6 * time[energy.argmin()]), (5, "most of an expression", 2 * energy.max() / energy[0]),
+                (6, "mean over some points", 1e3 * np.average(z[front], weights=mass[front])), (7, "over all", 1e3 * mean),
+                (8, "quantile", 1e3 * heights.max()), (9, "spread", 1e3 * np.sqrt(np.average((heights - mean)**2, weights=masses))),
+                (10, "a number in a list", 1e3 * mass.sum())):
+            check(abs(float(row[k]) - wanted) <= 6e-3 * abs(wanted) + 1e-6, f"{name}: {what}", (row[k], wanted))
+        check(row[11] == "-", "what a list has not is missing, not an error", row)
+    check(re.search(r"\| cfl \| velocity m/s, cell 1 mm \| steps of it, cell 1 mm \| velocity m/s, cell 0.5 mm \| steps of it, cell "
+                    r"0.5 mm \|\n[^\n]*\n\| 0.4 \| \S+ \| \d+ \| \S+ \| \d+ \|\n\| 0.5 \|", text), "a table across", text)
+    check("Demanded: more than one point. Found: " in text and "**met**" in text and re.search(r"300. Found: \d+, .*missed", text),
+          "a demand from below", text)
+    check(re.search(r"\| piece of \| mass g .*\n.*\n\| plate \|", text) and "are not resolved" in text, "pieces", text)
+    drawn = re.findall(r"!\[[^\]]*\]\((\S+\.png)\)", text)
+    check(len(drawn) == 3 and all(os.path.getsize("more/" + one) > 5000 for one in drawn), "pictures of points", drawn)
+    for what, change, words in (
+            ("no such definition", ("columns: [case, points, {\"drop %\": drop}", "columns: [{d: dropp}"), "no member has 'dropp'"),
+            ("a definition that is none", ("100 * (at", "100 * (* at"), r"plate.md:3: define: drop: .*is no expression"),
+            ("no such field", ("colour: velocity_z", "colour: velocity_q"), "the points have no 'velocity_q'"),
+            ("no such column", ("least(kinetic_energy)", "least(kinetic)"), "no column 'kinetic'.*did you mean"),
+            ("no time", ('mean(z, "1 us")', 'mean(z, "1 mm")'), "1 mm"),
+            ("nothing across", ("across: grid.cell", "across: grid.sell"), "none of these members varies 'grid.sell'"),
+            ("two bounds", ("above: 300", "above: 300\nbelow: 2"), "one of `below` and `above`"),
+            ("no bound", ("above: 300", "unit: m"), "one of `below` and `above`"),
+            ("no pieces", ("measure: parts", "measure: part"), "no measure 'part' of kind fragments .did you mean parts"),
+            ("no point", ("where: front", "where: z > 5"), "no point is there"),
+            ("three numbers", ("range: [0, 2]", "range: [0, 2, 3]"), "2 numbers are expected")):
+        done = report(MORE.replace(*change), "-o", "more")
+        check(done.returncode == 2 and re.search(words, done.stderr, re.S) and "Traceback" not in done.stderr,
+              f"refused: {what}", done.text[-300:])
+    for what, change, words in (("two cases of one folder", ("as it is: {}", "as it is: {}\n  as_it_is: {}"), "the same folder"),
+                                ("a case of nothing", ("as it is: {}", "as it is: fine"), "what this case changes"),
+                                ("a key that no scene has", ("{grid.cell", "{grid.sell: 1 mm, grid.cell"),
+                                 r"cases.yaml:8: vary.finer, shorter: .*unknown key 'sell'"),
+                                ("a name that is not there", ("{grid.cell", "{bodies.plat.velocity: 0, grid.cell"), "bodies.plat")):
+        write("cases.yaml", CASES.replace(*change))
+        done = study_of("cases.yaml")
+        check(done.returncode == 2 and re.search(words, done.stderr) and "Traceback" not in done.stderr, f"refused: {what}",
+              done.text[-300:])
+    write("cases.yaml", CASES)
+    done = study_of("cases.yaml", "--set", "grid.cell=2 mm")
+    check(done.returncode == 2 and "a case of this study says it" in done.text, "what a case says is not set for all", done.text)
 
 
 def again():
@@ -162,7 +309,7 @@ def expressions():
     rows = [row("2 mm", 4.0, 2.0), row("1 mm", 5.0, None), row("0.5 mm", 6.0, 0.0)]
 
     def of(text, k=0):
-        return columns.Expression(text, rows, None).of(rows[k])
+        return Expression(text, rows, None).of(rows[k])
 
     for text, k, wanted in (("length / width", 0, 2.0), ("length / width", 1, None), ("length / width", 2, None),
                             ("-length ** 2 + audit.heat", 0, -13.0), ("grid.cell * steps", 1, 7.0), ("change(length)", 0, None),
@@ -182,6 +329,7 @@ with Folder():
     write("again.yaml", CELLS.replace("vary", "set: {time.end: 0.9 us}\nvary"))
     write("laws.yaml", LAWS)
     page()
+    more()
     again()
     bad_input()
     expressions()

@@ -18,9 +18,10 @@ import h5py
 from scene_support import ROOT, Folder, check, command, environment, finish, krater
 from study_support import SCENE, study_of, write
 from answer import Answer
-from members import Member, Row, member
+from ballistic_limit import BallisticLimit, by_cell
+from members import Member, Row, member, text_of
 from refinement import Convergence
-from search import BallisticLimit, by_cell
+from study_file import Quantity
 
 SHOT = """
 frame: axisymmetric
@@ -113,6 +114,30 @@ def resumed():
     check(done.returncode == 0 and "1 of 3 members to run" in done.stderr, "the same command goes on", done.text)
     check("--restart" in log, "the member from its checkpoint", log[-400:])
     check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
+
+
+def stopped_study():
+    """A study that is asked to end: the member goes on later, and has cost both parts."""
+    write("asked.yaml", convergence("[1 mm, 0.5 mm, 0.04 mm]"))
+    process = subprocess.Popen(command("study", "asked.yaml", "-j", 1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                               text=True, env=environment())
+    for line in process.stderr:
+        if "[2/3]" in line:
+            break
+    folder, end = pathlib.Path("asked_study/members"), time.monotonic() + 30
+    while not (folder / "cell=0.04mm/log.txt").exists() and time.monotonic() < end:
+        time.sleep(0.005)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGTERM)
+    _, error = process.communicate()
+    told = json.loads((folder / "cell=0.04mm.json").read_text(encoding="utf-8"))
+    check(process.returncode == 4 and "interrupted; what is done lies in" in error and told["status"] == "interrupted" and
+          told["core_seconds"] > 0.1, "a study that is asked to end books what was spent", told)
+    done = study("asked")
+    after = json.loads((folder / "cell=0.04mm.json").read_text(encoding="utf-8"))
+    alone = json.loads((folder / "cell=0.04mm/summary.json").read_text(encoding="utf-8"))["machine"]["processor_seconds"]
+    check(done.returncode == 0 and after["core_seconds"] > told["core_seconds"] + 0.5 * alone, "and later both parts",
+          (told["core_seconds"], alone, after["core_seconds"]))
 
 
 def killed_member():
@@ -273,6 +298,9 @@ def bad_input():
             ("shifts that the sides forbid", base + "repeats: 3\n", "bad.yaml:5: repeats: .*leave repeats out"),
             ("one cell for a limit", LIMIT + "cells: [0.5 mm]\n", "bad.yaml:5: cells: two cells or more"),
             ("a cell twice", LIMIT + "cells: [0.5 mm, 0.45 mm]\n", "bad.yaml:5: cells: .*15 %"),
+            ("shots of two cells of three", LIMIT + "cells: [1 mm, 0.5 mm, 0.25 mm]\nmembers: [4, 4]\n",
+             r"bad.yaml:6: members: one number, or as many as there are cells \(3\)"),
+            ("a finest cell that no scene can have", LIMIT + "cells: [1 mm, 0.001 um]\n", "cell"),
             ("no outcome", "study: ballistic_limit\nscene: plate.yaml\noutcome: shot\nspeed: {}\n",
              "bad.yaml:3: outcome")):
         done = study("bad", text)
@@ -314,15 +342,65 @@ def limit_by_cell():
           re.search(r"By the cells 1, 0.5 mm the limit is .* \+- ", done.stdout), "and told together", done.stdout)
     for what, limits, words in (
             ("20, 40, 60 through a plate of 12 mm", (239, 209, 189), "do not answer to 2 %, and where it ends these cells do not"),
-            ("of first order", (240, 215, 206.7), r"0\.6, 0\.3, 0\.2 mm do not answer to 2 %; 0\.0\d+ mm should, about"),
+            ("of first order", (240, 215, 206.7), r"0\.6, 0\.3, 0\.2 mm do not answer to 2 %; 0\.0\d+ mm should, at "),
             ("within their intervals", (200, 201, 200.5), "Every one"),
+            ("out of reach", (340, 260, 245), r"by what they show .* mm would, which is out of reach: halve the finest"),
             ("settled", (201, 200.2, 200), r"Every one of these cells answers to 2 %"),
             ("settled in the end", (240, 200.2, 200), r"^0\.6 mm does not answer to 2 %\."),
             ("wavering", (200, 260, 190), "do not answer to 2 %, and where it ends")):
         told = Answer()
-        by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1]} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
-                "m/s", (1e-9, -3.0, 1e-7))
+        by_cell(told, [{"cell": cell, "bracket": [limit - 1, limit + 1], "shots": [], "core_seconds": 1} for cell, limit in zip((6e-4, 3e-4, 2e-4), limits)],
+                "m/s", (1e-4, -3.0, 1e-7))
         check(re.search(words, told.sentences[-1]), f"{what}: {words}", told.sentences)
+
+
+def prices():
+    for seconds, words in ((5.26, "5.3 s"), (90, "1.5 min"), (7200, "2.0 h"), (1e6, "11.6 days"), (4e7, "more than a year")):
+        check(text_of(seconds) == words, f"{seconds:g} s is told as {words}", text_of(seconds))
+
+
+def finer_begin_near():
+    """A finer cell begins where coarser ones point to; wherever its limit is, its own shots bracket it."""
+    def asked(limits, most=20):
+        """{cell: its rows} where shots above limits[cell] perforate; None: they tell nothing."""
+        kind = BallisticLimit.__new__(BallisticLimit)
+        kind.outcome, kind.path, kind.tolerance, kind.cells = "shot", "v", 5.0, list(limits)
+        kind.low, kind.high, kind.most = Quantity(100, "m/s"), Quantity(420, "m/s"), dict.fromkeys(limits, most)
+        rows = []
+        while new := kind.next(rows):
+            for one in new:
+                speed, limit = float(one.values["v"].split()[0]), limits[one.values["grid.cell"]]
+                word = "moving" if limit is None else "perforated" if speed > limit else "stopped"
+                rows.append(Row(one, "done", "", {"outcomes": {"shot": {"outcome": word}}}))
+            check(len(rows) == len({row.member.name for row in rows}) < 70, "no shot is asked twice", rows[-1].member.name)
+        return kind, {cell: kind.of_cell(rows, cell) for cell in kind.cells}
+
+    for what, limits, dear in (("as the cell", (261.3, 221.7, 201.9), 7), ("settled", (261.3, 261.3, 261.3), 7),
+                               ("far below", (261.3, 221.7, 121.9), 11), ("far above", (261.3, 221.7, 391.1), 11),
+                               ("below all", (261.3, 221.7, 90), 7), ("above all", (151.9, 171.3, 430), 7)):
+        kind, found = asked(dict(zip(("0.6 mm", "0.3 mm", "0.2 mm"), limits)))
+        for limit, rows in zip(limits, found.values()):
+            low, high = kind.bracket(rows)
+            inside = 100 < limit < 420
+            check(low < limit < high <= low + 5 if inside else low is None if limit < 100 else high is None,
+                  f"{what}: {limit} is bracketed, or known to be outside", (low, high))
+        check(len(found["0.6 mm"]) > len(found["0.2 mm"]) or not what.startswith(("as", "settled")), f"{what}: fewer dear shots")
+        first = [kind.speed(row) for row in found["0.2 mm"][:2]]
+        check(what != "as the cell" or first[0] < limits[2] < first[1], f"{what}: the first two shots bracket it", first)
+        check(len(found["0.2 mm"]) <= dear, f"{what}: at most {dear} dear shots", len(found["0.2 mm"]))
+    _, found = asked({"0.6 mm": 260, "0.3 mm": None, "0.2 mm": 240})
+    check(len(found["0.3 mm"]) < 10 and len(found["0.2 mm"]) < 10, "a cell that tells nothing is passed over",
+          [len(rows) for rows in found.values()])
+    kind, found = asked({"0.6 mm": 260, "0.3 mm": 120}, 2)
+    rows = found["0.3 mm"][1:]
+    check("below " + kind.low.text(kind.speed(rows[0])) in kind.outside(rows, None, kind.speed(rows[0])) and
+          "More shots" in kind.outside(rows, None, 1), "a search that was cut short says no more than its shots do")
+    kind, found = asked({"0.6 mm": 90})
+    check("below 100 m/s. Widen" in kind.outside(found["0.6 mm"], None, 100), "one that met the end says so")
+    kind, found = asked({"0.6 mm": 430})
+    check("above 420 m/s. Widen" in kind.outside(found["0.6 mm"], 420, None), "at either end")
+    _, found = asked({"0.6 mm": 260, "0.3 mm": 220}, 3)
+    check([len(rows) for rows in found.values()] == [3, 3], "never more than `members` of a cell")
 
 
 def examples():
@@ -354,6 +432,7 @@ with Folder():
     files_of_a_study()
     resumed()
     killed_member()
+    stopped_study()
     failing_member()
     null_in_some()
     fates()
@@ -362,5 +441,7 @@ with Folder():
     bad_input()
     limit()
     limit_by_cell()
+    prices()
+    finer_begin_near()
     examples()
 finish()

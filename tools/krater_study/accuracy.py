@@ -3,7 +3,8 @@
 
 Four times and twice the scene's cell, then on by what the values show: the band falls as cell^q (uncertainty.py), the
 cost as power law of the cells that were run, so the cell that should reach the target and its price are said before it
-is run. What the budget cannot pay is not begun: a rim thinner than the cells would take all of it and be known no better.
+is run. `--measures length,width` names those that must be known so well; the others get the band that they have then.
+What the budget cannot pay is not begun: a rim thinner than the cells would take all of it and be known no better.
 Each refinement is at most twofold: an order seen at coarse cells is not believed further. The finest run's
 results are those of the folder, its summary.json says of every measure the uncertainty and how it was found; the other
 cells lie in members/."""
@@ -16,9 +17,9 @@ import time
 
 import numpy as np
 
-from members import member, read_json, text_of, write_json
+from members import YEAR, member, read_json, text_of, write_json
 from refinement import CELL, Convergence
-from study_file import InputError, Study, load, seconds
+from study_file import InputError, Study, load, seconds, suggestion
 from uncertainty import estimate, levels_of
 
 BUDGET = 20 * 60  # [s]
@@ -35,6 +36,7 @@ def options(words):
     parser.add_argument("-j", type=int, default=os.cpu_count())
     parser.add_argument("-o", "--output")
     parser.add_argument("--budget")
+    parser.add_argument("--measures")
     parser.add_argument("--set", action="append", default=[])
     # A share below 0 is a share, not an option: it is refused with the reason.
     return parser.parse_args([" " + word if word.startswith("-") and k == 1 else word for k, word in enumerate(words)])
@@ -68,8 +70,8 @@ class Request(Study):
 
 
 class Accuracy(Convergence):
-    def __init__(self, study, target):
-        self.study, self.target, self.engine = study, target, None
+    def __init__(self, study, target, named=None):
+        self.study, self.target, self.engine, self.named = study, target, None, named
         self.cells, self.repeats = [], 1
         cell = study.settings.pop(CELL, None) or (study.base.get("grid") or {}).get("cell", "")
         self.own = study.quantity(cell, CELL)
@@ -112,9 +114,16 @@ class Accuracy(Convergence):
         return {name: estimate([row.cell for row in done], [math.nan if row.measure(name) is None else row.measure(name)
                                                             for row in done]) for name in self.study.measures}
 
+    @property
+    def judged(self):
+        """Those that were named, or all that have a value (command.py leaves out of the study what has none)."""
+        return self.named or self.study.measures
+
     def unmet(self, done):
-        return {name: found for name, found in self.bands(done).items()
-                if not found.known or found.uncertainty > self.target * abs(found.value)}
+        bands = self.bands(done)
+        found = {name: bands.get(name) or estimate([], []) for name in self.judged}
+        return {name: one for name, one in found.items()
+                if not one.known or one.uncertainty > self.target * abs(one.value)}
 
     def needed(self, found, finest):
         """The cell that should bring a measure to the target, in the unit of `finest`; None: no refinement is seen to
@@ -154,15 +163,28 @@ class Accuracy(Convergence):
             line = f"{name} is not known to {100 * self.target:g} %: {value} can be had at {1e3 * finest:.4g} mm"
             cell = self.needed(found, finest) if found.known else None
             if cell and law:
-                price = text_of(law[2] * law[0] * cell ** law[1])
-                line += f"; {1e3 * cell:.3g} mm should reach it in about {price} of core time"
+                price = law[2] * law[0] * cell ** law[1]
+                line += (f"; by what these cells show {1e3 * cell:.1g} mm would reach it, which is out of reach" if price > YEAR else
+                         f"; {1e3 * cell:.3g} mm should reach it in about {text_of(price)} of core time")
             elif found.known:
                 line += f"; it {found.behaviour} and no refinement is seen to help"
             said.append(line + ".")
-        said = said or [f"Every measure is known to {100 * self.target:g} % at {1e3 * finest:.4g} mm."]
+        which = ", ".join(self.named) if self.named else "Every measure"
+        said = said or [f"{which} is known to {100 * self.target:g} % at {1e3 * finest:.4g} mm."]
         answer.sentences = said + answer.sentences
-        answer.data["target"], answer.data["met"] = self.target, not unmet
+        answer.data["target"], answer.data["met"], answer.data["judged"] = self.target, not unmet, list(self.judged)
         return answer
+
+
+def named(study, text):
+    """Names of --measures; None where it is not given."""
+    if text is None:
+        return None
+    names = [name.strip() for name in text.split(",")]
+    for name in names:
+        if name not in study.measures:
+            raise InputError(f"--measures {text}: the scene has no measure '{name}' ({suggestion(name, study.measures)})")
+    return list(dict.fromkeys(names))
 
 
 def prepare(words):
@@ -174,7 +196,7 @@ def prepare(words):
         raise InputError(f"--budget {given.budget}: a time above 0 is expected, as 20min")
     study = Request(given.scene, given.set)
     folder = given.output or os.path.splitext(os.path.basename(given.scene))[0] + "_out"
-    return study, Accuracy(study, target), folder, given.j, budget
+    return study, Accuracy(study, target, named(study, given.measures)), folder, given.j, budget
 
 
 def publish(folder, rows, answer):
@@ -197,5 +219,5 @@ def publish(folder, rows, answer):
             summary["measures"][name]["uncertainty"] = curve["uncertainty"]
             summary["measures"][name]["uncertainty_from"] = curve["how"]
     summary["accuracy"] = {"target": answer.data["target"], "met": answer.data["met"],
-                           "cells": sorted(row.cell for row in rows if row.done)}
+                           "measures": answer.data["judged"], "cells": sorted(row.cell for row in rows if row.done)}
     write_json(os.path.join(folder, "summary.json"), summary)

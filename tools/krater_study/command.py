@@ -13,9 +13,10 @@ import sys
 import accuracy
 import results
 from answer import missing_sentences
+from ballistic_limit import BallisticLimit
+from calibrate import Calibrate
 from members import Engine, text_of, write_json
 from refinement import Convergence
-from search import BallisticLimit, Calibrate
 from settings import Ablation, Pareto, Sweep
 from study_file import InputError, Study, flow, load, seconds
 
@@ -116,9 +117,11 @@ def locate(study, error):
             for name in study.block(key):
                 if name == path or path == f"references.{name}":
                     return InputError(f"{study.path}:{study.line(f'{key}/{name}')}: {key}.{name}: {message}")
-        for name, changes in study.block("effects").items():
-            if path in changes:
-                return InputError(f"{study.path}:{study.line(f'effects/{name}/{path}')}: effects.{name}: {message}")
+        named = [("effects", study.block("effects"))] + [("vary", study.block("vary"))] * (study.keys.get("design") == "cases")
+        for key, block in named:
+            for name, changes in block.items():
+                if path in changes:
+                    return InputError(f"{study.path}:{study.line(f'{key}/{name}/{path}')}: {key}.{name}: {message}")
         if "speed" in study.keys:
             return InputError(f"{study.path}:{study.line('speed/path')}: speed.path: {message}")
     return error
@@ -130,6 +133,8 @@ def gather(question, engine, run):
     while new := question.next(rows):
         if run:
             engine.check(new)
+            if not rows:
+                foretell_all(question, engine)
             if not rows or engine.estimate(new)[0] > 1:
                 foretell(engine, new)
             found = engine.run(new)
@@ -139,6 +144,17 @@ def gather(question, engine, run):
         if any(row.status in ("left", "interrupted") for row in rows):
             return rows, True
     return rows, False
+
+
+def foretell_all(question, engine):
+    """What all of it will take, of a kind that asks for members one after the other and can know how many. The dearest
+    is checked now: a cell that a scene cannot have is an error before the first run, not after hours."""
+    expected = question.expected() if hasattr(question, "expected") else []
+    engine.check([one for one, _ in expected])
+    if sum(count for _, count in expected) > 2:
+        core = sum(count * engine.seconds(one) for one, count in expected)
+        say(f"krater study: about {sum(count for _, count in expected)} runs in all, at most {text_of(core)} of core time by "
+            "the forecast of krater check: less where time.stop_when ends them")
 
 
 def foretell(engine, members):

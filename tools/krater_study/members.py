@@ -27,6 +27,7 @@ KRATER = os.environ.get("KRATER", "krater")
 LOOK = 0.01  # between looks at the children [s]
 LEAST = 0.1  # of a run, whatever it computes [s]
 LONGEST_NAME = 100  # of a member, which is a folder's
+YEAR = 365 * 86400.0  # [s]
 MEMORY_SHARE = 0.8  # of what is free, that members side by side may take
 BYTES = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
 ESTIMATE = re.compile(r"^estimate: .*?([\d.e+]+) (\w?B) of memory, ([\d.e+]+) (\w+) on one core", re.M)
@@ -231,6 +232,7 @@ class Engine:
                 child.stop()
             for child in running:
                 child.wait()
+                self.finish(child)  # what it has cost so far is a part of what it costs
         return rows
 
     def may_start(self, one, running):
@@ -339,6 +341,9 @@ def free_memory():
 
 
 def text_of(seconds):
+    """As 3.1 min. What is foretold beyond a year is no figure: nobody can try it."""
+    if seconds > YEAR:
+        return "more than a year"
     for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 1.5 * size:
             return f"{seconds / size:.1f} {unit}"

@@ -4,6 +4,8 @@
 import html
 import re
 
+from members import text_of
+
 STYLE = """
 :root { --ink: #1b2733; --soft: #5b6875; --line: #dfe4e9; --paper: #ffffff; --shade: #f5f7f9;
   --blue: #1f5f99; --red: #b5402a; }
@@ -57,12 +59,16 @@ def svg(source):
     return re.sub(r'(<svg[^>]*?) width="[^"]*" height="[^"]*"', r"\1", source[source.index("<svg"):], 1, re.S)
 
 
+def in_words(count):
+    return next((f"{count / size:.3g} {word}" for size, word in ((1e9, "billion"), (1e6, "million")) if count >= size), f"{count:.0f}")
+
+
 def page(made, rows, answer, columns, drawn):
     machine = made["machine"]
     done = [row for row in rows if row.done]
     core = sum(row.cost.get("core_seconds", 0) for row in done)
-    facts = [(f"{len(done)} of {len(rows)}", "members done"), (f"{core:.3g} s", "core time"),
-             (f"{sum(row.cost.get('point_steps', 0) for row in done) / 1e6:.3g} M", "point-steps"),
+    facts = [(f"{len(done)} of {len(rows)}", "members done"), (text_of(core), "core time"),
+             (in_words(sum(row.cost.get("point_steps", 0) for row in done)), "point-steps"),
              (f"{max((row.cost.get('bytes', 0) for row in done), default=0) / 2**20:.0f} MiB", "greatest memory")]
     out = ["<!doctype html><html lang=en><head><meta charset=utf-8>"
            '<meta name=viewport content="width=device-width, initial-scale=1">',

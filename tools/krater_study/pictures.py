@@ -150,6 +150,29 @@ def limit(figure, shots, fit, unit):
     axes.legend(fontsize=8)
 
 
+def limits(figure, found, middles, band, unit):
+    """Shots of several cells, and their limits against the cell with the band of the finest."""
+    left, right = grid(figure, 2, 4.2, 3.4)
+    for k, one in enumerate(found):
+        through = [(v, r) for v, r, p in one["shots"] if p]
+        stopped = [v for v, _, p in one["shots"] if p is False]
+        left.plot(*zip(*through), "o", color=f"C{k}", ms=5, mec="white", label=f"{1e3 * one['cell']:.3g} mm")
+        left.plot(stopped, [0] * len(stopped), "x", color=f"C{k}", ms=4.5)
+        if one["fit"]:
+            fit, v = one["fit"], np.linspace(one["fit"]["limit"], max(v for v, _ in through), 200)
+            left.plot(v, fit["a"] * np.maximum(v ** fit["p"] - fit["limit"] ** fit["p"], 0) ** (1 / fit["p"]), color=f"C{k}", lw=1)
+        low, high = one["bracket"]
+        right.errorbar(1e3 * one["cell"], middles[k], [[middles[k] - low], [high - middles[k]]], fmt="o", color=f"C{k}", ms=5,
+                       mec="white", capsize=3)
+    finest = min(range(len(found)), key=lambda k: found[k]["cell"])
+    right.axhspan(max(0.0, middles[finest] - band), middles[finest] + band, color=BLUE, alpha=0.13, lw=0)
+    right.set_xlim(0, 1.1e3 * max(one["cell"] for one in found))
+    right.set_ylim(max(0.0, min(middles) - band), min(max(middles) + band, 1.3 * max(middles)))
+    left.set(xlabel=f"impact speed [{unit}]", ylabel="residual speed [m/s]")
+    right.set(xlabel="cell [mm]", ylabel=f"limit [{unit}]")
+    left.legend(fontsize=8)
+
+
 def search(figure, trials, best):
     """trials: {path: (values, unit)}, `residual` among them; best: {path: (value, half)}."""
     paths = [path for path in trials if path != "residual"]

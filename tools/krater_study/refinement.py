@@ -137,4 +137,4 @@ class Convergence:
         if found.falls_as is None or law is None:
             return "not by refinement"
         cell = min(row.cell for row in done) * (allowed / found.uncertainty) ** (1 / found.falls_as)
-        return f"~{text_of(law[2] * law[0] * cell ** law[1])} ({1e3 * cell:.2g} mm)"
+        return f"~{text_of(law[2] * law[0] * cell ** law[1])} ({1e3 * cell:.2g} mm)".replace("~more", "more")

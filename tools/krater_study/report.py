@@ -9,21 +9,18 @@ import datetime
 import fnmatch
 import hashlib
 import os
-import shlex
 import shutil
-import subprocess
-import sys
 import time
 
 import columns
 import command
+import expressions
 import results
 from answer import failed_sentences
 from members import KRATER, LEAST, text_of
-from study_file import InputError, Study, flow
+from report_pictures import Pictures
+from study_file import InputError, Study, flow, suggestion
 from template import Template
-
-STANDARD = ("final_shape", "shapes", "energy", "dt", "measures")  # pictures that tools/plot_run draws unasked
 
 
 class Members:
@@ -41,10 +38,14 @@ def digest(*paths):
     return total.hexdigest()[:16]
 
 
-class Report:
+class Report(Pictures):
     def __init__(self, template, folder):
         self.template, self.folder, self.studies, self.lines = template, folder, {}, []
-        self.pictures = 0
+        for name, text in template.defined.items():
+            try:
+                expressions.define(name, text)
+            except InputError as error:
+                template.fail(template.defined.lines[name], f"define: {name}: {error}")
 
     # ---- studies
 
@@ -99,17 +100,48 @@ class Report:
     def table(self, piece):
         chosen = [row for _, row in self.rows(piece)]
         every = [row for name in piece.studies for row in self.studies[name].rows]
-        titles, lines = [], [[] for _ in chosen]
+        in_order, places = [], [next(k for k, one in enumerate(every) if one is row) for row in chosen]
+        keys, values = [], []  # (title, cells) of columns that name what was varied, and of the others
         for name in piece.items("columns"):
-            found, cells = self.mended(piece, "columns", columns.column, name, every, self.folder_of,
-                                       piece.keys.get("off") in ("yes", "true"))
-            titles += found
-            for line, row in zip(lines, chosen):
-                line += cells[next(k for k, one in enumerate(every) if one is row)]
-        self.lines += ["| " + " | ".join(titles) + " |", "| " + " | ".join(["---"] + ["---:"] * (len(titles) - 1)) + " |"]
-        self.lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines]
-        self.lines.append("")
+            titles, cells = self.mended(piece, "columns", columns.column, name, every, self.folder_of,
+                                        piece.keys.get("off") in ("yes", "true"))
+            path = next(iter(name.values())) if isinstance(name, dict) else name
+            of = keys if any(path in row.member.values for row in every) else values
+            of += [(title, [cells[place][k] for place in places]) for k, title in enumerate(titles)]
+            in_order += of[-len(titles):]
+        if "across" in piece.keys:
+            if not any(piece.keys["across"] in row.member.values for row in chosen):
+                piece.fail("across", f"none of these members varies '{piece.keys['across']}'")
+            titles, lines = columns.across(str(piece.keys["across"]), chosen, keys, values)
+        else:
+            titles = [title for title, _ in in_order]
+            lines = [[cells[k] for _, cells in in_order] for k in range(len(chosen))]
+        self.marked(titles, lines)
         self.paragraphs(f"**{line}**" for line in failed_sentences(chosen))
+
+    def marked(self, titles, lines):
+        """A table of Markdown."""
+        self.lines += ["| " + " | ".join(titles) + " |", "| " + " | ".join(["---"] + ["---:"] * (len(titles) - 1)) + " |"]
+        self.lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines] + [""]
+
+    def pieces(self, piece):
+        """What a measure of kind fragments has found: the heaviest pieces of each member, and what is too small."""
+        name, most = str(piece.keys["measure"]), int(self.number(piece, "most", piece.keys.get("most", "8")))
+        pairs = [(study, row) for study, row in self.rows(piece) if row.done]
+        for label, (_, row) in zip(labels_of([row for _, row in pairs]), pairs):
+            found = row.summary.get("fragments", {}).get(name)
+            if found is None:
+                piece.fail("measure", f"no measure '{name}' of kind fragments "
+                           f"({suggestion(name, list(row.summary.get('fragments', {})))})")
+            self.paragraphs([f"{label}:"] if len(pairs) > 1 else [])
+            self.marked(["piece of", "mass g", "points", "velocity m/s", "size mm"], [
+                [one["body"], f"{1e3 * one['mass']:.3f}", str(one["points"]),
+                 ", ".join(f"{axis} {v:.1f}" for axis, v in one["velocity"].items()),
+                 " x ".join(f"{1e3 * size:.1f}" for size in one["size"].values())] for one in found["pieces"][:most]])
+            left, dust = len(found["pieces"]) - most, found["dust"]
+            self.paragraphs([(f"{left} more pieces. " if left > 0 else "") +
+                             f"Pieces of fewer than {found['least_points']} points are not resolved: {dust['pieces']} of "
+                             f"them, {1e3 * dust['mass']:.3f} g together."])
 
     @staticmethod
     def mended(piece, key, call, *words):
@@ -118,6 +150,8 @@ class Report:
             return call(*words)
         except InputError as error:
             return piece.fail(key, str(error))
+        except expressions.Missing as error:
+            return piece.fail(key, f"'{error}' has no value: no point is there, or none of them is meant")
 
     def answer(self, piece):
         """Sentences, tables and pictures of the study itself."""
@@ -142,100 +176,18 @@ class Report:
 
     def demand(self, piece):
         """What was asked for beside the worst of what was found."""
+        bounds = [key for key in ("below", "above") if key in piece.keys]
+        if len(bounds) != 1:
+            piece.fail("demand", "one of `below` and `above` is expected")
         every = [row for name in piece.studies for row in self.studies[name].rows]
-        expression = self.mended(piece, "value", columns.Expression, str(piece.keys["value"]), every, self.folder_of)
+        expression = self.mended(piece, "value", expressions.Expression, str(piece.keys["value"]), every, self.folder_of)
         found = [self.mended(piece, "value", expression.of, row) for _, row in self.rows(piece)]
-        number, unit = self.number(piece, "below"), str(piece.keys.get("unit", ""))
+        bound, unit = self.number(piece, bounds[0]), str(piece.keys.get("unit", ""))
         known = [value for value in found if value is not None]
-        told = f"{max(known):.3g} {unit}".strip() + f", **{'met' if max(known) < number else 'missed'}**" if known \
-            else "**not known**"
+        worst = max(known, default=0) if bounds[0] == "below" else min(known, default=0)
+        met = worst < bound if bounds[0] == "below" else worst > bound
+        told = f"{worst:.3g} {unit}".strip() + f", **{'met' if met else 'missed'}**" if known else "**not known**"
         self.paragraphs([f"Demanded: {piece.keys['says']}. Found: {told}."])
-
-    def sections(self, piece):
-        import run_pictures
-        from plot_run_shapes import Colouring
-        span = piece.items("range") or None
-
-        def scale(run):
-            return Colouring(run, run.numbers, str(piece.keys["field"]) if "field" in piece.keys else None, span)
-        self.draw(piece, run_pictures.sections, [self.time(piece, "times", text) for text in piece.items("times")], scale,
-                  self.box(piece, "box", piece.items("box")))
-
-    def outlines(self, piece):
-        import run_pictures
-        boxes = [self.box(piece, "boxes", box) for box in piece.items("boxes")]
-        self.draw(piece, run_pictures.outlines, self.time(piece, "time", piece.keys["time"]), [None, *boxes])
-
-    def histories(self, piece):
-        import run_pictures
-        names = piece.items("measures")
-        units = {row.unit(name) for _, row in self.rows(piece) for name in names if row.done}
-        if len(units - {""}) > 1:
-            piece.fail("measures", f"one picture shows one unit, these have {', '.join(sorted(units))}")
-        unit = next(iter(units - {""}), "")
-        largest = max((abs(row.measure(name) or 0) for _, row in self.rows(piece) for name in names), default=0)
-        scale, shown = columns.scale_of(largest, unit)
-        lines = [(self.number(piece, "lines", value), words) for line in piece.items("lines")
-                 for words, value in line.items()]
-        words = dict(zip(names, [""] if len(names) == 1 else (name.replace("_", " ") for name in names)))
-        title = names[0].replace("_", " ") if len(names) == 1 else ""
-        self.draw(piece, run_pictures.histories, words, f"{title} [{shown}]".strip(), 1 / scale, lines)
-
-    def picture(self, piece):
-        """`tools/plot_run` of a member: one of its standard pictures by name, or what its options ask for."""
-        words = shlex.split(str(piece.keys.get("plot", STANDARD[0])))
-        for name, folder in self.folders(piece).items():
-            target = self.target(piece)
-            path = os.path.join(self.folder, target)
-            standard = len(words) == 1 and words[0] in STANDARD
-            done = subprocess.run([sys.executable, os.path.join(columns.TOOLS, "plot_run"), folder,
-                                   *(() if standard else (*words, "-o", path))], capture_output=True, text=True, check=False)
-            if done.returncode:
-                piece.fail("plot", done.stderr.strip())
-            if standard:
-                shutil.copyfile(os.path.join(folder, "pictures", words[0] + ".png"), path)
-            self.paragraphs([f"![{name}]({target})"])
-
-    def draw(self, piece, picture, *words):
-        rows = self.folders(piece)
-        if rows:
-            target = self.target(piece)
-            title = str(piece.keys.get("title", ""))
-            picture(rows, *words, title=title).savefig(os.path.join(self.folder, target), dpi=110)
-            self.paragraphs([f"![{title or piece.kind}]({target})"])
-
-    # ---- values of a template
-
-    def target(self, piece):
-        self.pictures += 1
-        return f"{piece.studies[0]}_{piece.kind}_{self.pictures}.png"
-
-    @staticmethod
-    def number(piece, key, text=None):
-        try:
-            return float(piece.keys[key] if text is None else text)
-        except (TypeError, ValueError):
-            return piece.fail(key, f"a number is expected, found {flow(text or piece.keys[key])}")
-
-    @staticmethod
-    def time(piece, key, text):
-        try:
-            return columns.quantity(text, "s")
-        except ValueError as error:
-            return piece.fail(key, str(error))
-
-    @staticmethod
-    def box(piece, key, texts):
-        """[x, x, z, z] in mm, or None."""
-        if not texts:
-            return None
-        try:
-            box = [1e3 * columns.quantity(text, "m") for text in texts]
-        except ValueError as error:
-            piece.fail(key, str(error))
-        if len(box) != 4 or not (box[0] < box[1] and box[2] < box[3]):
-            piece.fail(key, "a box is [least x, largest x, least z, largest z]")
-        return box
 
     # ---- the page
 

@@ -2,6 +2,7 @@
 """pareto, ablation, sweep: tables of settings, effects, inputs."""
 
 import itertools
+import re
 
 import numpy as np
 
@@ -31,6 +32,21 @@ def axes_of(study, key="vary", crossed=True):
         study.fail(key, f"{count} members; at most {MOST} in one study: take values away, or use design: "
                    f"latin_hypercube")
     return axes
+
+
+def cases_of(study):
+    """Members of `vary: {as it is: {}, a quarter: {frame: 3d, grid.boundary: ...}}`."""
+    members = []
+    for name, changes in study.block("vary", required=True).items():
+        if not isinstance(changes, Block) and flow(changes) not in ("", "{}"):
+            study.fail(f"vary/{name}", "what this case changes is expected: {grid.cell: 0.2 mm, ...}, or {}")
+        texts = {path: flow(value) for path, value in changes.items()} if isinstance(changes, Block) else {}
+        study.check_paths(f"vary/{name}", texts)
+        members.append(Member(re.sub(r"[^\w.+-]+", "_", name), [f"{path}={text}" for path, text in texts.items()],
+                              {"case": str(name)}))
+        if members[-1].name in [other.name for other in members[:-1]]:
+            study.fail(f"vary/{name}", f"another case would have the same folder '{members[-1].name}'; call it otherwise")
+    return members
 
 
 def product(axes):
@@ -203,11 +219,12 @@ def relative(value, base):
 
 
 class Sweep:
-    """Inputs and their consequences: design grid, list (values side by side), latin_hypercube (ranges)."""
+    """Inputs and their consequences: design grid, list (values side by side), cases (each with a name and settings of its
+    own), latin_hypercube (ranges)."""
 
     def __init__(self, study):
         self.study = study
-        self.design = study.word("design", ["grid", "list", "latin_hypercube"]) if "design" in study.keys else "grid"
+        self.design = study.word("design", ["grid", "list", "cases", "latin_hypercube"]) if "design" in study.keys else "grid"
         if self.design == "latin_hypercube":
             self.ranges = {path: study.between(value, f"vary/{path}")
                            for path, value in study.block("vary", required=True).items()}
@@ -218,6 +235,9 @@ class Sweep:
         for key in ("members", "seed"):
             if key in study.keys:
                 study.fail(key, "only design: latin_hypercube draws members")
+        if self.design == "cases":
+            self.members = cases_of(study)
+            return
         axes = axes_of(study, crossed=self.design == "grid")
         lengths = {len(values) for values in axes.values()}
         if self.design == "list" and len(lengths) > 1:
@@ -251,6 +271,8 @@ class Sweep:
                                  *("-" if row.measure(name) is None else scaled_text(row.measure(name), row.unit(name))
                                    for name in self.study.measures), number(row.cost["core_seconds"], 3)]
                                 for row in done])]
+        if self.design == "cases":  # what differs has no order: the table says all
+            return answer
         inputs = {path: (numbers([row.member.values[path] for row in done]), unit_of(done[0].member.values[path]))
                   for path in paths}
         outputs = {name: ([np.nan if row.measure(name) is None else row.measure(name) for row in done],

@@ -190,8 +190,9 @@ class Study:
 
     def count(self, key, default, most):
         value = self.keys.get(key)
-        if value is None:
-            return default
+        return default if value is None else self.whole(value, key, most)
+
+    def whole(self, value, key, most):
         if not isinstance(value, str) or not value.isdecimal() or len(value) > 9 or not 1 <= int(value) <= most:
             self.fail(key, f"a whole number from 1 to {most} is expected, found {flow(value)}")
         return int(value)
@@ -251,7 +252,15 @@ class Study:
     def check_varied(self):
         """What members vary cannot be set for all of them: it would say nothing, and be believed."""
         speed = self.keys.get("speed")
-        varied = [*self.block("vary"), *([speed.get("path")] if isinstance(speed, Block) else [])]
+        vary = self.block("vary")
+        cases = [path for changes in vary.values() if isinstance(changes, Block) for path in changes]
+        if self.keys.get("design") == "cases":  # a case may change what `set` says for all
+            for path in cases:
+                if path in self.said:
+                    raise InputError(f"--set {path}: a case of this study says it ({self.path}:{self.line('vary')}); change "
+                                     "it there")
+            return
+        varied = [*vary, *([speed.get("path")] if isinstance(speed, Block) else [])]
         for path in varied:
             if path in self.said:
                 raise InputError(f"--set {path}: this study varies it ({self.path}:{self.line(f'vary/{path}')}); change "

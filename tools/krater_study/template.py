@@ -7,7 +7,7 @@
                                      ```
 
 A study is the file refinement.yaml beside the template. A block at the head, --- takes: 10 min, set: {...} ---, says how
-long all of it takes and what is laid over every member of every study."""
+long all of it takes and what is laid over every member of every study; define: {ratio: length / width} names expressions."""
 
 import dataclasses
 import os
@@ -20,15 +20,17 @@ from study_file import Block, InputError, Tree, flow, seconds, suggestion
 FENCE, END, HEAD = "```krater", "```", "---"
 CHOSEN = ("members",)
 BLOCKS = {  # first key, which names the study or a list of them: other keys
-    "table": ("columns", "off", *CHOSEN),
+    "table": ("columns", "across", "off", *CHOSEN),
     "answer": ("leave_out",),
-    "demand": ("says", "value", "below", "unit", *CHOSEN),
+    "demand": ("says", "value", "below", "above", "unit", *CHOSEN),
+    "pieces": ("measure", "most", *CHOSEN),
     "sections": ("times", "field", "range", "box", "title", *CHOSEN),
     "outlines": ("time", "boxes", "title", *CHOSEN),
-    "histories": ("measures", "lines", "title", *CHOSEN),
+    "histories": ("measures", "lines", "range", "title", *CHOSEN),
+    "scatter": ("x", "y", "times", "where", "colour", "range", "box", "lines", "title", *CHOSEN),
     "picture": ("plot", *CHOSEN),
 }
-REQUIRED = {"table": ("columns",), "demand": ("says", "value", "below"), "sections": ("times",),
+REQUIRED = {"table": ("columns",), "demand": ("says", "value"), "pieces": ("measure",), "scatter": ("x", "y", "times"), "sections": ("times",),
             "outlines": ("time",), "histories": ("measures",)}
 
 
@@ -76,20 +78,23 @@ class Template:
 
     def read_head(self):
         """The line after the head; `takes` [s or None] and `settings` (texts of --set) are read."""
-        self.takes, self.settings = None, []
+        self.takes, self.settings, self.defined = None, [], {}
         if self.lines[0].strip() != HEAD:
             return 0
         end = self.find(HEAD, 1)
         head = self.yaml(1, end)
         for key in head:
-            if key not in ("takes", "set"):
-                self.fail(head.lines[key], f"{key}: unknown key of the head ({suggestion(key, ('takes', 'set'))})")
+            if key not in ("takes", "set", "define"):
+                self.fail(head.lines[key], f"{key}: unknown key of the head ({suggestion(key, ('takes', 'set', 'define'))})")
         if "takes" in head:
             self.takes = seconds(head["takes"]) if isinstance(head["takes"], str) else None
             if not self.takes:
                 self.fail(head.lines["takes"], f"takes: a time is expected, as 10 min, found {flow(head['takes'])}")
         if not isinstance(head.get("set", Block()), Block):
             self.fail(head.lines["set"], "set: a block of keys is expected: {time.energy_error: off}")
+        self.defined = head.get("define", Block())
+        if not isinstance(self.defined, Block):
+            self.fail(head.lines["define"], "define: a block of expressions is expected: {ratio: length / width}")
         self.settings = [f"{path}={flow(value)}" for path, value in head.get("set", {}).items()]
         return end + 1
 

@@ -4,6 +4,8 @@
 
 Writes README.md and a picture into its folder. `tools/validate ccf_bars` builds first. The same bars by points:
 ../ccf_two_bars.
+
+A script, not a template: it reads nodes of elements and their first places, which no block of a template knows.
 """
 
 import os

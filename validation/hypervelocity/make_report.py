@@ -4,6 +4,8 @@
 
 Writes README.md and pictures into its folder. `tools/validate hypervelocity` builds first. The same runs for anyone:
 `krater study inputs/hypervelocity/craters.yaml` and `holes.yaml`.
+
+A script, not a template: each shot stands beside formulas of its own (formulas.py).
 """
 
 import os

@@ -3,6 +3,8 @@
 """The same problems with points, elements, particles, and mixed: bars, Taylor, plugging, Spear's plate.
 
 Writes README.md and pictures into its folder. `tools/validate kinematics` builds first.
+
+A script, not a template: it reads gauges and asks some thirty scenes, of which each is run once.
 """
 
 import os

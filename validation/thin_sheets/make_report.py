@@ -3,6 +3,8 @@
 """Sheets, bars and tubes thinner than a cell, points split along their stretch and not.
 
 Writes README.md and pictures into its folder. `tools/validate thin_sheets` builds first.
+
+A script, not a template: it holds points against closed forms of a bar and a tube.
 """
 
 import os

@@ -21,8 +21,9 @@ struct RunOptions {
   std::string output;                  ///< folder; empty: SCENE_out in the current directory
   std::vector<std::string> overrides;  ///< --set path=value
   std::string restart;                 ///< checkpoint file; empty: from the start
-  std::string accuracy, budget;        ///< --accuracy 2% --budget 20min: a study (app/study.hpp)
-  int threads = 0;                     ///< 0: all
+  /// --accuracy 2% --measures length --budget 20min: a study (app/study.hpp)
+  std::string accuracy, measures, budget;
+  int threads = 0;  ///< 0: all
   bool quiet = false;
   bool json = false;    ///< one JSON object on standard output
   bool strict = false;  ///< a run that ends with warnings is not done

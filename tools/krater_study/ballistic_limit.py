@@ -1,26 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ballistic_limit and calibrate: what to run next depends on what has been run.
+"""ballistic_limit: at what speed is it just perforated?
 
-ballistic_limit halves an interval of speeds whose ends were not perforated and perforated, then fits Recht and Ipson,
+Halves an interval of speeds whose ends were not perforated and perforated, then fits Recht and Ipson,
 
     v_r = a (v^p - v_bl^p)^(1/p),    0 < a <= 1,  p = 2 where fewer than five shots perforated
 
 to the residual speeds. Two intervals are said: that of the shots, which is certain, and that of the fit (95 %,
 Student).
+
+Of several cells the coarsest is asked first, by the whole interval; a finer one begins where those before it point to,
+by the straight line through the last two, and widens its interval by doubling where that was wrong. A shot at half the
+cell takes eight times as long, so nearly all of the time is that of the finest cell's shots: these are saved.
 """
 
-import dataclasses
 import math
 
 import numpy as np
-from scipy.optimize import curve_fit, minimize, minimize_scalar
+from scipy.optimize import curve_fit
 from scipy.special import stdtrit
 
 import pictures
-from answer import Answer, Picture, Table, failed_sentences, number, reference_of, scaled, short_names
-from members import member, text_of
+from answer import Answer, Picture, Table, failed_sentences, number
+from members import YEAR, member, text_of
 from refinement import CELL, Convergence
-from study_file import Block, InputError
 from uncertainty import estimate, levels_of
 
 TOLERANCE = 0.01  # of the speed
@@ -51,8 +53,8 @@ class BallisticLimit:
             if given.unit != self.low.unit or given.number <= 0:
                 study.fail("speed/tolerance", f"a speed above 0 in {self.low.unit} is expected")
             self.tolerance = given.number
-        self.most = study.count("members", 20, 1000)
         self.cells = self.read_cells(study)
+        self.most = self.read_most(study)
 
     @staticmethod
     def read_cells(study):
@@ -69,6 +71,16 @@ class BallisticLimit:
         if len({cell.unit for cell in found}) > 1 or len(levels_of(np.array([cell.number for cell in found]))) < len(found):
             study.fail("cells", "cells in one unit, each more than 15 % from every other, are expected")
         return [cell.text() for cell in sorted(found, key=lambda cell: -cell.number)]
+
+    def read_most(self, study):
+        """{cell: shots at most}: one number, or one for each cell, as its shots are dearer and dearer."""
+        said = study.keys.get("members")
+        if not isinstance(said, list) or "cells" not in study.keys:
+            return dict.fromkeys(self.cells, study.count("members", 20, 1000))
+        if len(said) != len(self.cells):
+            study.fail("members", f"one number, or as many as there are cells ({len(self.cells)}), are expected")
+        order = sorted(range(len(said)), key=lambda k: -study.quantity(study.keys["cells"][k], "cells").number)
+        return {cell: study.whole(said[k], "members", 1000) for cell, k in zip(self.cells, order)}
 
     def shot(self, speed, cell=None):
         values = {self.path: self.low.text(speed)}
@@ -99,29 +111,65 @@ class BallisticLimit:
         return max(stopped) if stopped else None, high
 
     def next(self, rows):
-        """Cells do not wait for each other: their shots run side by side."""
-        return [one for cell in self.cells for one in self.next_of(self.of_cell(rows, cell), cell)]
+        """Shots of the coarsest cell that still wants any."""
+        for k, cell in enumerate(self.cells):
+            if wanted := self.next_of(self.of_cell(rows, cell), cell, self.begin(rows, k)):
+                return wanted
+        return []
 
-    def next_of(self, rows, cell):
+    def begin(self, rows, k):
+        """The first two speeds of a cell: the ends, or around what coarser cells point to."""
+        known = [(float(cell.split()[0]), 0.5 * (low + high)) for cell in self.cells[:k]
+                 for low, high in [self.bracket(self.of_cell(rows, cell))] if None not in (low, high)]
+        if not known:
+            return self.low.number, self.high.number
+        cell, guess = known[-1]
+        half = 2 * self.tolerance
+        if len(known) > 1:
+            (coarse, before), own = known[-2], float(self.cells[k].split()[0])
+            change = (guess - before) * (cell - own) / (coarse - cell)
+            guess, half = guess + change, max(half, 0.5 * abs(change))
+        return max(self.low.number, guess - half), min(self.high.number, guess + half)
+
+    def next_of(self, rows, cell, begin):
         if not rows:
-            return [self.shot(self.low.number, cell), self.shot(self.high.number, cell)]
+            return self.distinct([self.shot(float(f"{speed:.6g}"), cell) for speed in begin], [])[:self.most[cell]]
         low, high = self.bracket(rows)
-        if low is None or high is None or high - low <= self.tolerance or len(rows) >= self.most:
-            return self.for_the_fit(rows, low, high, cell)
-        middle = self.shot(float(f"{0.5 * (low + high):.6g}"), cell)
-        if middle.name in [row.member.name for row in rows]:  # it told nothing: no narrower interval is to be had
-            return self.for_the_fit(rows, low, high, cell)
-        return [middle]
-
-    def for_the_fit(self, rows, low, high, cell):
-        """A fit of one perforation says nothing: more shots between the limit and the fastest."""
-        if low is None or high is None:
+        if len(rows) >= self.most[cell]:
             return []
-        have = [row.member.name for row in rows]
+        if low is None or high is None:
+            return self.widened(rows, low, cell)
+        if high - low <= self.tolerance:
+            return self.for_the_fit(rows, high, cell)
+        middle = self.distinct([self.shot(float(f"{0.5 * (low + high):.6g}"), cell)], rows)
+        return middle or self.for_the_fit(rows, high, cell)  # it told nothing: no narrower interval is to be had
+
+    @staticmethod
+    def distinct(shots, rows):
+        """Those that were not asked yet, each once."""
+        return list({one.name: one for one in shots if one.name not in [row.member.name for row in rows]}.values())
+
+    def widened(self, rows, low, cell):
+        """All perforated, or none: as far again beyond what was tried, to the ends."""
+        tried = [self.speed(row) for row in rows]
+        step = max(max(tried) - min(tried), 2 * self.tolerance)
+        speed = max(self.low.number, min(tried) - step) if low is None else min(self.high.number, max(tried) + step)
+        return self.distinct([self.shot(float(f"{speed:.6g}"), cell)], rows)
+
+    def for_the_fit(self, rows, high, cell):
+        """A fit of one perforation says nothing: more shots between the limit and the fastest."""
         through = sum(self.perforated(row) is True for row in rows if row.done)
         wanted = [self.shot(float(f"{high + share * (self.high.number - high):.6g}"), cell) for share in (0.25, 0.5, 0.1)]
-        new = [one for one in wanted if one.name not in have]
-        return new[:1] if through < 4 and new and len(rows) < self.most else []
+        wanted = [one for one in wanted if one.name not in [row.member.name for row in rows]]
+        return wanted[:max(0, min(4 - through, self.most[cell] - len(rows)))]
+
+    def expected(self):
+        """[(a shot, how many like it)]: what all of it will take, as far as it can be known before."""
+        halvings = math.ceil(math.log2(max(2.0, (self.high.number - self.low.number) / self.tolerance)))
+        first, later = 4 + halvings, 7  # ends, halvings, fit; two, one too far, two halvings, fit
+        speed = float(f"{0.5 * (self.low.number + self.high.number):.6g}")
+        return [(self.shot(speed, cell), min(self.most[cell], first if k == 0 else later))
+                for k, cell in enumerate(self.cells)]
 
     def answer(self, rows):
         """Of one cell: its bracket and fit. Of several: those of each, and what they say of each other."""
@@ -130,9 +178,20 @@ class BallisticLimit:
         if len(found) == 1:
             answer.data |= found[0]
         else:
-            answer.data = {"unit": self.low.unit, "cells": found}
-            by_cell(answer, found, self.low.unit, Convergence.cost_law([row for row in rows if row.done]))
+            whole = Answer(data={"unit": self.low.unit, "cells": found})  # what was asked for comes first
+            by_cell(whole, found, self.low.unit, Convergence.cost_law([row for row in rows if row.done]))
+            answer = Answer(whole.sentences + answer.sentences, whole.tables + answer.tables, whole.pictures, whole.data)
         return answer
+
+    def outside(self, done, low, high):
+        """Where a limit lies that shots of one kind alone were asked of."""
+        told = [self.speed(row) for row in done if self.perforated(row) is not None]
+        if not told:
+            return "No shot tells whether it perforated: nothing is known of the limit."
+        fate, end = ("perforated", max(told)) if high is None else ("was stopped", min(told))
+        reached = end >= self.high.number if high is None else end <= self.low.number
+        return (f"No shot {fate}: the limit lies {'above' if high is None else 'below'} {self.low.text(end)}. " +
+                ("Widen speed.between." if reached else "More shots would tell where (the same command goes on; `members` bounds them)."))
 
     def limit_of(self, answer, rows, cell):
         """{bracket, shots, fit, unit} of a cell, told in `answer`."""
@@ -152,9 +211,7 @@ class BallisticLimit:
                                         "would.")
         fit = None
         if low is None or high is None:
-            missing = "perforated" if high is None else "was stopped"
-            answer.sentences.append(f"{at}No shot between {self.low.text()} and {self.high.text()} {missing}: the limit "
-                                    f"lies {'above' if high is None else 'below'} this interval. Widen speed.between.")
+            answer.sentences.append(at + self.outside(done, low, high))
         else:
             alone = "" if cell else (" That holds for this cell only: give `cells: [...]`, some of them finer, and this "
                                      "study tells whether it answers the question.")
@@ -164,12 +221,10 @@ class BallisticLimit:
             answer.sentences += [at + line for line in fit_sentences(fit, low, high, unit)]
         drawn = [(v, r if p else 0.0, p) for v, r, p in shots if p is not None]
         if drawn:
-            name = "limit" if cell is None else f"limit_{cell.replace(' ', '')}"
-            answer.pictures.append(Picture(
-                name, f"{at}Residual against impact speed; the band is the fit's confidence interval.",
-                lambda figure: pictures.limit(figure, drawn, fit, unit)))
+            answer.pictures.append(Picture("limit", "Residual against impact speed; the band is the fit's confidence interval.",
+                                           lambda figure: pictures.limit(figure, drawn, fit, unit)))
         return {"cell": next((row.cell for row in done), None), "bracket": [low, high], "unit": unit, "shots": shots,
-                "fit": fit}
+                "fit": fit, "core_seconds": sum(row.cost["core_seconds"] for row in done)}
 
 
 TARGET = 0.02  # of the limit: what an answer by several cells is measured by
@@ -179,9 +234,9 @@ def by_cell(answer, found, unit, law):
     """Do these cells answer the question, and what would? The intervals of the shots are an error of their own."""
     known = [one for one in found if None not in one["bracket"]]
     cells, limits = [one["cell"] for one in known], [0.5 * sum(one["bracket"]) for one in known]
-    answer.tables.append(Table("Limit by cell", ["cell mm", f"limit {unit}", f"bracket {unit}"], [
-        [number(1e3 * cell), number(limit), f"{one['bracket'][0]:.5g} to {one['bracket'][1]:.5g}"]
-        for cell, limit, one in zip(cells, limits, known)]))
+    answer.tables.append(Table("Limit by cell", ["cell mm", f"limit {unit}", f"bracket {unit}", "shots", "core-seconds"], [
+        [number(1e3 * cell), number(limit), f"{one['bracket'][0]:.5g} to {one['bracket'][1]:.5g}", str(len(one["shots"])),
+         number(one["core_seconds"], 3)] for cell, limit, one in zip(cells, limits, known)]))
     if len(known) < 2:
         answer.sentences.append("Fewer than two cells have a limit: nothing is known of the error of the cell.")
         return
@@ -191,6 +246,9 @@ def by_cell(answer, found, unit, law):
         band = width
         result.behaviour, result.order = "differs by less than its intervals are wide (a smaller speed.tolerance tells more)", None
     answer.data |= {"limit": result.value, "uncertainty": band, "how": result.how}
+    answer.pictures.append(Picture("limit", "Left: residual against impact speed, with the fits; crosses: not perforated. Right: the limit of "
+                                   "each cell with its shots' interval; shaded: where the limit of small cells lies in nine of ten cases.",
+                                   lambda figure: pictures.limits(figure, known, limits, band, unit)))
     told = ", ".join(number(limit) for limit in limits)
     answer.sentences.append(f"By the cells {', '.join(number(1e3 * cell) for cell in cells)} mm the limit is {told} {unit}: it "
                             f"{result.how}, and lies at {result.value:.4g} +- {band:.2g} {unit}.")
@@ -200,14 +258,23 @@ def by_cell(answer, found, unit, law):
         answer.sentences.append(f"Every one of these cells answers to {100 * TARGET:g} %.")
         return
     line = f"{', '.join(far)} mm do{'es' if len(far) == 1 else ''} not answer to {100 * TARGET:g} %"
-    if len(far) == len(cells) and result.falls_as:
-        cell = min(cells) * (allowed / band) ** (1 / result.falls_as)
-        price = f", about {text_of(law[2] * law[0] * cell ** law[1])} of core time a shot" if law else ""
-        line += f"; {1e3 * cell:.2g} mm should{price}"
-    elif len(far) == len(cells):
-        line += (", and where it ends these cells do not show: halve the finest again, or give the law that softens a length "
-                 "(resolution.md of the manual)" if len(cells) > 2 else "; a third cell would tell what does")
+    if len(far) == len(cells):
+        line += what_would(result.falls_as, min(cells), allowed / band, law, len(cells))
     answer.sentences.append(line + ".")
+
+
+def what_would(order, finest, share, law, count):
+    """The cell at which the band, which falls by `order`, is `share` of the finest cell's; or why there is none."""
+    softens = "give the law that softens a length (resolution.md of the manual)"
+    if not order:
+        return (f", and where it ends these cells do not show: halve the finest again, or {softens}" if count > 2 else
+                "; a third cell would tell what does")
+    cell = finest * share ** (1 / order)
+    price = law[2] * law[0] * cell ** law[1] if law else 0.0
+    if price > YEAR:
+        return (f"; by what they show {1e3 * cell:.1g} mm would, which is out of reach: halve the finest, for that may show more, or "
+                f"{softens}")
+    return f"; {1e3 * cell:.2g} mm should" + (f", at {text_of(price)} of core time a shot" if law else "")
 
 
 def recht_ipson(shots, low, high):
@@ -247,126 +314,3 @@ def fit_sentences(fit, low, high, unit):
         yield ("The fit's interval and that of the shots do not meet: residual speeds do not follow the curve near the "
                "limit; "
                "believe the shots.")
-
-
-@dataclasses.dataclass
-class Parameter:
-    path: str
-    low: float
-    high: float
-    unit: str
-
-
-class Calibrate:
-    """One or two constants that bring measures nearest to their truth, in units of its uncertainty (1 % where not
-    said)."""
-
-    def __init__(self, study):
-        self.study = study
-        self.parameters = []
-        for path, value in study.block("vary", required=True).items():
-            low, high = study.between(value.get("between") if isinstance(value, Block) else value, f"vary/{path}")
-            self.parameters.append(Parameter(path, low.number, high.number, low.unit))
-        study.check_paths("vary", [one.path for one in self.parameters])
-        if len(self.parameters) > 2:
-            study.fail("vary", "one or two constants: three are not told apart by a few numbers")
-        if len(study.truth) < len(self.parameters):
-            study.fail("truth", "as many measures as constants are needed, or they are not told apart")
-        study.measures = [name for name in study.measures if name in study.truth]
-        self.most = study.count("members", 15 * len(self.parameters), 1000)
-
-    def trial(self, x):
-        """x in 0 to 1 of each range; four digits of it, so that a search that comes back meets its own member."""
-        return member({one.path: f"{one.low + round(float(u), 4) * (one.high - one.low):.7g} {one.unit}".strip()
-                       for one, u in zip(self.parameters, x)})
-
-    def residual(self, row):
-        """Root mean square distance from the truth in its uncertainties; infinite of a member that failed."""
-        total = 0.0
-        for name in self.study.truth:
-            value, truth = row.measure(name), reference_of(self.study, [row], name)
-            if value is None or truth is None:
-                return math.inf
-            total += ((value - truth[0]) / (truth[1] or 0.01 * abs(truth[0]) or 1.0)) ** 2
-        return math.sqrt(total / len(self.study.truth))
-
-    def next(self, rows):
-        """The search is taken again from its start with what is known; the first trial that is not is run next."""
-        known = {row.member.name: row for row in rows}
-        if any(row.status == "left" for row in rows) or len(rows) >= self.most:
-            return []
-
-        def look(x):
-            x = np.clip(np.atleast_1d(x), 0, 1)
-            one = self.trial(x)
-            if one.name not in known:
-                raise Unknown(one)
-            return min(self.residual(known[one.name]) ** 2, 1e12)
-        try:
-            if len(self.parameters) == 1:
-                for u in (0.0, 0.5, 1.0):
-                    look([u])
-                best = min((0.0, 0.5, 1.0), key=lambda u: look([u]))
-                minimize_scalar(look, bounds=(max(0, best - 0.5), min(1, best + 0.5)), method="bounded",
-                                options={"xatol": 2e-3, "maxiter": self.most})
-            else:
-                minimize(look, [0.5, 0.5], method="Nelder-Mead", options={
-                    "initial_simplex": [[0.5, 0.5], [0.8, 0.5], [0.5, 0.8]], "xatol": 2e-3, "fatol": 1e-3,
-                    "maxfev": self.most})
-        except Unknown as unknown:
-            return [unknown.one]
-        return []
-
-    def answer(self, rows):
-        answer = Answer(failed_sentences(rows))
-        done = sorted((row for row in rows if row.done and math.isfinite(self.residual(row))), key=self.residual)
-        if not done:
-            raise InputError(f"{self.study.path}: no member gave all measures of `truth`: nothing to calibrate by")
-        best = done[0]
-        values = {one.path: [float(row.member.values[one.path].split()[0]) for row in done] for one in self.parameters}
-        residuals = [self.residual(row) for row in done]
-        halves = {one.path: self.half(values[one.path], residuals) for one in self.parameters}
-        for one in self.parameters:
-            value, half = values[one.path][0], halves[one.path]
-            text = f"+- {half:.2g}" if half is not None else "(how well, these members do not tell)"
-            answer.sentences.append(f"{one.path} = {value:.5g} {text} {one.unit}: within +- chi^2 of the truth rises "
-                                    f"by 1 (one "
-                                    "standard deviation, where its uncertainties are).")
-            if min(value - one.low, one.high - value) < 0.01 * (one.high - one.low):
-                answer.sentences.append(f"{one.path} ended at the edge of its range: the best lies beyond. Widen it.")
-        if len(self.parameters) == 2:
-            answer.sentences.append("With two constants each +- is that of the members seen while the other moved too: "
-                                    "where "
-                                    "they can make up for each other it is too small.")
-        if residuals[0] > 2:
-            answer.sentences.append(f"Even the best misses the truth by {residuals[0]:.2g} of its uncertainties: these "
-                                    f"constants "
-                                    "alone do not reproduce it.")
-        units = {name: scaled(best.unit(name))[1] for name in self.study.measures}
-        table = Table("Trials, the best first", [*short_names(list(values)).values(), "residual",
-                                                 *(f"{name} {unit}".strip() for name, unit in units.items())],
-                      [[*row.member.values.values(), number(r, 3), *(number(scaled(row.unit(n))[0] * row.measure(n), 5)
-                                                                     for n in self.study.measures)]
-                       for row, r in zip(done, residuals)])
-        answer.tables = [table]
-        answer.data = {"best": dict(best.member.values), "half": halves, "residual": residuals[0]}
-        trials = {one.path: (values[one.path], one.unit) for one in self.parameters} | {"residual": (residuals, "")}
-        marks = {one.path: (values[one.path][0], halves[one.path]) for one in self.parameters}
-        answer.pictures = [Picture("search", "Residual of every trial.",
-                                   lambda figure: pictures.search(figure, trials, marks))]
-        return answer
-
-    def half(self, values, residuals):
-        """Half-width in which chi^2 rises by 1, of a parabola through the nearest members; None where it has none."""
-        x, y = np.array(values), len(self.study.truth) * np.array(residuals) ** 2
-        near = np.argsort(np.abs(x - x[0]))[:6]
-        if len(set(x[near])) < 3:
-            return None
-        curvature = np.polyfit(x[near] - x[0], y[near], 2)[0]
-        return float(1 / math.sqrt(curvature)) if curvature > 0 else None
-
-
-class Unknown(Exception):
-    def __init__(self, one):
-        super().__init__(one.name)
-        self.one = one
