@@ -22,6 +22,7 @@ import other_scenes  # noqa: E402
 from validate_impacts import Scale, discussion, shapes  # noqa: E402
 from validate_runs import ROOT, Study  # noqa: E402
 
+SCENE = "inputs/snl/penetration.yaml"
 ESTIMATED_SECONDS = 5500  # on two quiet cores
 MASS, RADIUS, LENGTH, GRAVITY = 13.0, 38.1e-3, 525.8e-3, 9.80665
 DENSITY = {3: 6084, 6: 6453}  # of 13 kg in the outline
@@ -104,16 +105,16 @@ def label(law, shot, cells, more=""):
                     ([more] if more else []))
 
 
-def plan(tests):
-    """{label: (settings, seconds)} in the order of worth."""
-    jobs = {}
-    for cells, laws, names in ((6, ("HJC",), tests), (3, LAWS, ALL_LAWS), (12, ("HJC",), ALL_LAWS), (6, ("K&C",), ALL_LAWS),
-                               (6, ("K&C",), tests), (6, LAWS, ALL_LAWS)):
-        for law in laws:
-            for name in names:
-                jobs[label(law, tests[name], cells)] = (tests[name].settings(law, cells), 5 * (cells / 3) ** 2.6)
-    return jobs
+def plan(tests, parts):
+    """{label: (settings, seconds)} of (cells, laws, shots)."""
+    return {label(law, tests[name], cells): (tests[name].settings(law, cells), 5 * (cells / 3) ** 2.6)
+            for cells, laws, names in parts for law in laws for name in names}
 
+
+# The campaign in the order of worth, for a budget may end it: before code against code and the slab, after them, and last.
+FIRST = [(6, ("HJC",), ALL_LAWS), (6, ("K&C",), ALL_LAWS), (6, ("HJC", "K&C"), None)]
+THEN = [(3, LAWS, ALL_LAWS), (12, ("HJC",), ("16",))]
+LAST = [(6, LAWS, ("16",)), (12, ("HJC",), ALL_LAWS), (6, LAWS, ALL_LAWS)]
 
 # What else could be otherwise, on one shot with HJC at six cells: words and settings.
 VARIANTS = {
@@ -298,16 +299,33 @@ def pictures(study, tests, runs):
            "SNL-00-16, six cells: damage")
 
 
-def main():
-    study = Study(__file__, "inputs/snl/penetration.yaml", ESTIMATED_SECONDS, __doc__)
-    tests = shots()
-    runs = study.run_all(plan(tests))
+def campaign(study, tests):
+    """All runs, what a budget would rather have first: {label: run}, {words: run of a variant}, runs of the other scenes."""
+    def shots_of(parts):
+        return study.run_all(plan(tests, [(cells, laws, names or tests) for cells, laws, names in parts]))
+
     base = tests["16"].settings("HJC", 6)
+    runs = shots_of(FIRST)
+    others = {"sections": other_scenes.run_sections(study, tests)}
+    others["slab"] = other_scenes.run_slab(study)
+    study.use(SCENE)
+    runs |= shots_of(THEN)
     jobs = {label("HJC", tests["16"], 6, f"variant_{k}"): ([*base, *more], 40) for k, more in enumerate(VARIANTS.values())}
     variants = dict(zip(VARIANTS, study.run_all(jobs).values()))
+    others["cores"] = other_scenes.run_cores(study)
+    study.use(SCENE)
     for words, more in DEFORMABLE.items():
         variants[words] = study.run("HJC_16_6_" + words.split()[1].replace(",", ""), [*base, *more], 60, without=["    rigid: free"])
-    section = study.run(label("HJC", tests["10"], 3), tests["10"].settings("HJC", 3), 5)
+    runs[label("HJC", tests["10"], 3)] = study.run(label("HJC", tests["10"], 3), tests["10"].settings("HJC", 3), 5)
+    runs |= shots_of(LAST)
+    others["space"] = other_scenes.run_space(study)
+    return runs, variants, others
+
+
+def main():
+    study = Study(__file__, SCENE, ESTIMATED_SECONDS, __doc__)
+    tests = shots()
+    runs, variants, others = campaign(study, tests)
     study.add("An ogive-nosed projectile of 13 kg goes into cylinders of concrete ([inputs/snl](../../inputs/snl)). The constants are from the mix, "
               "the strength and rules; **no measured depth enters a card or a run**, and nothing erodes.")
     fifteen(study, tests, runs)
@@ -315,10 +333,10 @@ def main():
     resolution(study, tests, runs)
     study.add("![deceleration](deceleration.png)", "![damage](damage.png)")
     cost_of_variants(study, tests, runs, variants)
-    other_scenes.sections(study, tests)
-    other_scenes.cores(study)
-    other_scenes.space(study, section)
-    other_scenes.slab(study)
+    other_scenes.sections(study, tests, others["sections"])
+    other_scenes.cores(study, others["cores"])
+    other_scenes.space(study, others["space"], runs.get(label("HJC", tests["10"], 3)))
+    other_scenes.slab(study, others["slab"])
     discussion(study)
     depths(study, tests, runs)
     decelerations(study, tests, runs)
