@@ -221,7 +221,8 @@ struct KaragozianCase {
     if (!(nu < 0.5)) return "poisson_ratio must lie below 0.5";
     if (f < 10.0 * MPa || f > 100.0 * MPa)
       return "compressive_strength (fc of a generated card): the constants are generated for 10 to "
-             "100 MPa; use holmquist_johnson_cook with a card beyond";
+             "100 MPa (a bare number is in Pa: write 39 MPa); use holmquist_johnson_cook with a "
+             "card beyond";
     if (!(strength_t < f / 3.0)) return "tensile_strength must lie below a third of f";
     for (const double at : {1.0 / 3.0, 2.3 / 3.0})
       if (!(surfaces.psi(at) >= 0.5 && surfaces.psi(at) <= 1.0))
