@@ -329,13 +329,15 @@ def campaign(study, tests):
 
     runs = shots_of(FIRST)
     others["sections"] = other_scenes.run_sections(study, tests)
-    others["slab"] = other_scenes.run_slab(study)
+    others["slab"] = other_scenes.run_slab(study, (749,))
     study.use("inputs/snl/piped.yaml")
     variants[PIPED] = study.run(label("HJC", tests["16"], 6, "piped"), [], 40)
-    settings = list(enumerate(VARIANTS.items()))
-    vary(settings[:DECISIVE])
+    study.use(SCENE)
     for k, (words, more) in enumerate(DEFORMABLE.items()):
         variants[words] = study.run(label("HJC", tests["16"], 6, f"deformable_{k}"), [*base, *LOSS, *more], 60, without=["    rigid: free"])
+    settings = list(enumerate(VARIANTS.items()))
+    vary(settings[:DECISIVE])
+    others["slab"] |= other_scenes.run_slab(study, other_scenes.SLAB)
     study.use(SCENE)
     runs |= shots_of(THEN)
     others["cores"] = other_scenes.run_cores(study)
