@@ -103,7 +103,7 @@ class Study:
         self.scene = os.path.join(ROOT, scene)
         self.krater = os.environ.get("KRATER") or os.path.join(ROOT, "build", "krater")
         self.cores, self.budget, self.start = options.j, options.budget, time.monotonic()
-        self.identity = digest(self.krater, self.scene, *cards())
+        self.identity = digest(self.krater, self.scene)
         self.left_out, self.failed, self.lines = [], [], []
         print(f"{self.name}: about {seconds:.0f} s on 2 quiet cores; {self.krater}; results in "
               f"{os.path.join(self.folder, 'runs_out')}", flush=True)
@@ -121,7 +121,7 @@ class Study:
     def use(self, scene):
         """Runs from here on are of another scene of the project."""
         self.scene = os.path.join(ROOT, scene)
-        self.identity = digest(self.krater, self.scene, *cards())
+        self.identity = digest(self.krater, self.scene)
 
     def run(self, label, settings=(), seconds=0.0, threads=1, without=()):
         """Run `label` with --set options; None if it fails or the budget does not allow it. `without`: lines
@@ -170,9 +170,14 @@ class Study:
         return path
 
     def place(self, label, settings):
-        """Folder of a result, its stamp, and what the stamp must say."""
+        """Folder of a result, its stamp, and what the stamp must say: of the cards those that its text can name, so that a
+        card more makes no study anew."""
         folder = os.path.join(self.folder, "runs_out", label)
-        return folder, os.path.join(folder, "identity.txt"), self.identity + " " + " ".join(settings) + "\n"
+        with open(self.scene, encoding="utf-8") as file:
+            text = "\n".join([file.read(), *settings])
+        used = [path for path in cards() if os.path.splitext(os.path.basename(path))[0] in text]
+        return (folder, os.path.join(folder, "identity.txt"),
+                " ".join([self.identity, *([digest(*used)] if used else []), *settings]) + "\n")
 
     @staticmethod
     def stands(stamp, wanted):
@@ -183,9 +188,12 @@ class Study:
 
     def point(self, label, file, settings=()):
         """`krater point` with a file of inputs/points or text; None if it fails."""
-        path = os.path.join(ROOT, file)
         text = "\n" in file
-        folder, stamp, wanted = self.place(label, [file if text else digest(path), *settings])
+        path = os.path.join(ROOT, file)
+        if not text:
+            with open(path, encoding="utf-8") as written:
+                file = written.read()
+        folder, stamp, wanted = self.place(label, [file, *settings])
         if self.stands(stamp, wanted):
             return Point(folder)
         shutil.rmtree(folder, ignore_errors=True)

@@ -166,6 +166,12 @@ double bulk_modulus_at_rest(const MaterialOptions& m) {
   return m.density * c0 * c0;
 }
 
+std::vector<std::string> doubt_constants(const MaterialOptions& material) {
+  std::vector<std::string> doubts = doubt_magnitudes(material);
+  if (doubts.empty()) check_model(material, doubts);
+  return doubts;
+}
+
 std::vector<std::string> examine(const MaterialOptions& material) {
   std::vector<std::string> doubts = doubt_magnitudes(material);
   if (!doubts.empty()) return doubts;  // nothing else can be judged

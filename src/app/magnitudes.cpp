@@ -55,6 +55,10 @@ constexpr Magnitude kMagnitudes[] = {
     {any, "", "J/kg", 1e4, 1e10, 1e7},
     {any, "", "J/(kg.K)", 50, 2e4, 500},
     {any, "T_melt", "K", 150, 5e3, 1500},
+    {any, "aggregate_size", "m", 1e-4, 0.15, 0.01},  // mortar to mass concrete
+    {any, "", "J/m^2", 0.5, 1e6, 100},
+    {any, "crush_compression", "1", 1e-5, 0.05, 1e-3},
+    {any, "lock_compression", "1", 1e-3, 1.5, 0.1},  // concrete to foamed concrete
     {any, "epsdot0", "1/s", 1e-7, 1e9, 1},
     {any, "A", "1/Pa", 1e-14, 1e-8, 3e-11},
     {any, "", "1/K", 1e-7, 0.1, 1e-3},
@@ -104,6 +108,7 @@ constexpr OtherUnit kOtherUnits[] = {
     {"1/Pa", "1/GPa", 1e-9},
     {"1/Pa", "1/MPa", 1e-6},
     {"1", "percent", 0.01},
+    {"J/m^2", "N/mm", 1e3},
     {"s", "us", 1e-6},
     {"s", "ms", 1e-3},
     {"m", "mm", 1e-3},

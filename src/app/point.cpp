@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "krater/app/card_doctor.hpp"
 #include "krater/app/folder_lock.hpp"
 #include "krater/app/progress.hpp"
 #include "krater/app/version.hpp"
@@ -260,6 +261,9 @@ int run_point(const RunOptions& options) {
   PointScene point = read_point(options.scene, options.overrides);
   if (!options.quiet)
     for (const std::string& note : point.notes) say("krater: note: " + note);
+  if (!options.quiet)
+    for (const std::string& doubt : doubt_constants(point.material))
+      say(fmt::format("krater: doubt: {}: {}", point.material.name, doubt));
   return PointRunner{options, std::move(point)}.go();
 }
 

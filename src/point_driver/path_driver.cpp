@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,16 @@ class Bracket {
     if (end_stayed_ == &other && !std::isnan(other.r)) other.r *= 0.5;
     end_stayed_ = &other;
     end = {x, r};
+    (r < 0 ? below_ : above_) = r;
+  }
+  /// Why there is no root: the sides of a jump, or how near one came.
+  std::string said(double target) const {
+    if (std::isnan(below_) && std::isnan(above_)) return "the law failed in all of them";
+    if (std::isnan(below_) || std::isnan(above_))
+      return fmt::format("the nearest is {:.6g} Pa",
+                         target + (std::isnan(below_) ? above_ : below_));
+    return fmt::format("it jumps from {:.8g} to {:.8g} Pa within a stretch of {:.1g}",
+                       target + below_, target + above_, std::fabs(positive_.x - negative_.x));
   }
   double next(double first, int trial) const {
     const bool bracketed = !std::isnan(negative_.x) && !std::isnan(positive_.x);
@@ -66,6 +77,7 @@ class Bracket {
     double x = std::numeric_limits<double>::quiet_NaN(), r = x;
   };
   End negative_, positive_, last_, before_;
+  double below_ = std::numeric_limits<double>::quiet_NaN(), above_ = below_;  ///< unweighted
   const End* end_stayed_ = nullptr;
 };
 
@@ -140,9 +152,11 @@ Matrix3d PathDriver::solve(const PathStep& step) {
         "point.path: the material does not bear a mean tension of {:.4g} Pa; stresses are positive "
         "in tension: write a confinement as a negative lateral_stress, a hydrostat by its pressure",
         step.target));
+  const std::string why = kind != FaultKind::none                ? text_of(kind)
+                          : step.control == Control::triaxiality ? "the residual stays"
+                                                                 : bracket.said(step.target);
   throw NumericalError(fmt::format("{} ({} trials; {}); use more steps or another target",
-                                   text_of(step.control), kMostTrials,
-                                   kind == FaultKind::none ? "the residual stays" : text_of(kind)));
+                                   text_of(step.control), kMostTrials, why));
 }
 
 void PathDriver::note_jump(const PathStep& step, double before) {

@@ -83,6 +83,9 @@ def cap_and_pores():
     near("hydrostat of the cap model", np.log(t["density"].max() / 2300), 0.02423404, 1e-5)
     t, _, _ = point(RHT, "uniaxial_stress: {strain: -0.004, rate: 1e-9}", 2000)
     near("unconfined strength of RHT", t["von_mises"].max(), 35e6, 2e-3)
+    for confined, expected in ((10, 53.33), (40, 88.42), (100, 136.0)):  # by the law alone, without the driver
+        t, _, _ = point(RHT, f"triaxial: {{strain: -0.03, rate: 1e-9, lateral_stress: -{confined} MPa}}", 2000)
+        near(f"strength of RHT under {confined} MPa", t["von_mises"].max(), expected * 1e6, 2e-3)
     t, _, _ = point(RHT, "uniaxial_stress: {strain: 0.0005, rate: 1e-9}", 2000)
     near("direct tension of RHT", t["stress_xx"].max(), 3.5e6, 2e-3)
 
@@ -113,6 +116,20 @@ def mistakes():
             "card: {concrete: {fc: 15 MPa, model: cscm}}", more=", length: 5 mm")
     refused("a confinement with the wrong sign", ["does not bear a mean tension of 5e.07 Pa", "negative lateral_stress"],
             "card: concrete_48", "triaxial: {strain: -0.01, rate: 1, lateral_stress: 50 MPa}")
+    refused("a strength without its unit", ["10 to 100 MPa", "write 39 MPa"],
+            "card: {concrete: {fc: 39, model: karagozian_case}}", more=", length: 5 mm")
+    refused("the same of the cap model", ["20 to 58 MPa", "write 39 MPa"], "card: {concrete: {fc: 39, model: cscm}}",
+            more=", length: 5 mm")
+    refused("a model that has cards, not rules", ["no rule makes the constants of holmquist_johnson_cook", "card: concrete_48"],
+            "card: {concrete: {fc: 39 MPa, model: holmquist_johnson_cook}}")
+    refused("a card with a wrong key", ["unknown key 'fck'", "did you mean fc"], "card: {concrete: {fck: 39 MPa, model: cscm}}")
+    refused("a spall strength beside a model", [r"remove spall \(spall_strength\)"], "card: concrete_48, spall_strength: 3 MPa")
+    for key, meant in (("aggregate_size: 9.5", "mm meant"), ("density: 2.3", r"g/cm\^3 meant")):
+        _, _, text = point(f"card: {{concrete: {{fc: 39 MPa, model: cscm, {key}}}}}", "uniaxial_stress: {strain: -0.001, rate: 1}",
+                           10, ", length: 5 mm")
+        check(re.search(f"krater: doubt: m: .*{meant}", text) is not None, f"{key} is doubted", text)
+    _, _, text = point("card: concrete_48", "uniaxial_stress: {strain: -0.001, rate: 1}", 10)
+    check("doubt" not in text, "a sound card is not doubted", text)
     refused("a model that cannot be generated", [r"materials\.m\.card\.concrete\.model", "known: karagozian_case"],
             "card: {concrete: {fc: 39 MPa, model: holmquist}}")
     refused("no strength to generate from", ["missing key 'fc'", "in Pa"], "card: {concrete: {model: karagozian_case}}")

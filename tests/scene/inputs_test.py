@@ -22,9 +22,11 @@ SCENES = {
     "plate_impact": {"frames": ("axisymmetric", "plane_strain", "3d"), "end": "0.2 us", "coarse": "0.5 mm"},
     "round_nosed_rod": {"frames": ("axisymmetric",), "end": "1 us", "coarse": None},
     # 3d: for tools/validate.
+    "ceramic/rod_on_alumina": {"frames": ("axisymmetric",), "end": "2 us", "coarse": None, "cell": "1 mm", "too_large": ("plane_strain", "3d")},
     "hypervelocity/crater": {"frames": ("axisymmetric",), "end": "0.5 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "hypervelocity/hole": {"frames": ("axisymmetric",), "end": "0.5 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "snl/penetration": {"frames": ("axisymmetric",), "end": "20 us", "coarse": None, "too_large": ("plane_strain", "3d")},
+    "snl/piped": {"frames": ("axisymmetric",), "end": "20 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "snl/slab": {"frames": ("axisymmetric",), "end": "10 us", "coarse": None, "too_large": ("plane_strain", "3d")},
     "snl/three_kinematics": {"frames": ("3d",), "end": "20 us", "coarse": "25.4 mm"},
     "snl/tilted": {"frames": ("3d",), "end": "20 us", "coarse": "101.6 mm"},
@@ -74,7 +76,7 @@ def answers(path, said):
 
 
 with Folder():
-    files = sorted(path for folder in ("", "hypervelocity", "snl") for path in (ROOT / "inputs" / folder).glob("*.yaml"))
+    files = sorted(path for folder in ("", "ceramic", "hypervelocity", "snl") for path in (ROOT / "inputs" / folder).glob("*.yaml"))
     files = [path for path in files if not re.search(r"^study:", path.read_text(encoding="utf-8"), re.MULTILINE)]
     check(len(files) >= 4, f"{len(files)} scenes in inputs/")
     pages = [ROOT / "README.md", *(ROOT / "src" / "manual" / "pages").glob("*.md")]

@@ -28,21 +28,24 @@ def cost(run):
     return [f"{run.error:.1f}", f"{run.summary['machine']['processor_seconds']:.0f}", run.summary["steps"]]
 
 
-def slab(study):
+def run_slab(study, speeds):
     study.use("inputs/snl/slab.yaml")
     laws = {"HJC": ["materials.concrete={card: concrete_48, rate: jaumann}"],
             "K&C": ["materials.concrete=none", "materials.concrete={card: {concrete: {fc: 48 MPa, model: karagozian_case}}, "
                     "density: 2440, rate: jaumann}"]}
     jobs = {f"slab_{law.replace('&', '')}_{v}": ([*settings, f"bodies.projectile.velocity=[0, {-v}]"], 10)
-            for law, settings in laws.items() for v in SLAB}
-    found = study.run_all(jobs)
+            for law, settings in laws.items() for v in speeds}
+    return study.run_all(jobs)
+
+
+def slab(study, found):
     if not any(found.values()):
         return
     rows = []
     for v, after in SLAB.items():
         row = [v, after]
-        for law in laws:
-            run = found[f"slab_{law.replace('&', '')}_{v}"]
+        for law in ("HJC", "KC"):
+            run = found.get(f"slab_{law}_{v}")
             speed = measure(run, "velocity")
             row += [text(-speed if speed else None, 0), *cost(run)[:2]]
         rows.append(row)
@@ -51,11 +54,14 @@ def slab(study):
     study.add_table(["m/s before", "after, measured", "HJC", "energy error %", "cpu s", "K&C", "energy error %", "cpu s"], rows)
 
 
-def space(study, section):
-    """`section`: the axisymmetric run of shot 10 at the same cell."""
+def run_space(study):
     study.use("inputs/snl/tilted.yaml")
     straight = ["bodies.projectile.shape.rotate.angle=0 degree"]
-    found = {"tilted by 4.38 degree": study.run("half_tilted", [], 230), "straight": study.run("half_straight", straight, 230)}
+    return {"tilted by 4.38 degree": study.run("half_tilted", [], 230), "straight": study.run("half_straight", straight, 230)}
+
+
+def space(study, found, section):
+    """`section`: the axisymmetric run of shot 10 at the same cell."""
     if not any(found.values()):
         return
     rows = [[words, run.summary["points"] if run else "-", text(measure(run, "depth")), *cost(run)] for words, run in found.items()]
@@ -65,7 +71,7 @@ def space(study, section):
     study.add_table(["", "points", "depth m", "energy error %", "cpu s", "steps"], rows)
 
 
-def sections(study, tests, names=("16", "04")):
+def run_sections(study, tests, names=("16", "04")):
     """Points against elements on one cell everywhere."""
     study.use("inputs/snl/penetration.yaml")
     jobs = {}
@@ -75,7 +81,10 @@ def sections(study, tests, names=("16", "04")):
                 settings = [*tests[name].settings(law, 3), "grid.refine=none", f"grid.cell={CORE_CELL:g}",
                             f"bodies.target.kinematics={kinematics}"]
                 jobs[f"section_{kind}_{law.replace('&', '')}_{name}_3"] = (settings, 20)
-    found = study.run_all(jobs)
+    return study.run_all(jobs)
+
+
+def sections(study, tests, found):
     if not any(found.values()):
         return
     rows = []
@@ -91,13 +100,16 @@ def sections(study, tests, names=("16", "04")):
     study.add_table(["shot", "depth m", "error %", "energy error %", "cpu s", "steps", "contact heat %", "became points"], rows)
 
 
-def cores(study):
+def run_cores(study):
     study.use("inputs/snl/three_kinematics.yaml")
-    rows = []
-    found = {words: study.run("core_" + words.split(",")[0].split()[0], [f"bodies.target.kinematics={kinematics}", "time.end=0.5 ms"], 200, study.cores)
-             for words, kinematics in CORE.items()}
+    return {words: study.run("core_" + words.split(",")[0].split()[0], [f"bodies.target.kinematics={kinematics}", "time.end=0.5 ms"], 200, study.cores)
+            for words, kinematics in CORE.items()}
+
+
+def cores(study, found):
     if not any(found.values()):
         return
+    rows = []
     for words, run in found.items():
         speed = run.history()["projectile.mean_velocity_z"][-1] if run else None
         rows.append([words, run.summary["points"] if run else "-", text(measure(run, "depth")), text(speed, 1), *cost(run)])

@@ -21,7 +21,10 @@ void check_model(const MaterialOptions& material, std::vector<std::string>& doub
 /// Numbers of a material that are wrong by powers of ten, with the unit that was probably meant.
 std::vector<std::string> doubt_magnitudes(const MaterialOptions& material);
 
-/// The same of a scene's sizes, speeds and times.
+/// For `krater point`, which shows all else itself: these, and if there are none those of a model.
+std::vector<std::string> doubt_constants(const MaterialOptions& material);
+
+/// Numbers that are wrong by powers of ten of a scene's sizes, speeds and times.
 std::vector<std::string> doubt_scene(const Scene& scene);
 
 /// A parameter of a law by its key; empty if the law has no such parameter.

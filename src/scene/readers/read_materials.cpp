@@ -266,10 +266,11 @@ bool holds_no_law(const MaterialOptions& m) {
 void check_model(const MaterialOptions& material, Block& block) {
   const LawInfo& model = law_info(*material.model);
   std::string beside;
-  for (const auto& [key, given] : {std::pair{"strength", material.strength.has_value()},
-                                   {"eos", material.eos.has_value()},
-                                   {"damage", material.damage.has_value()},
-                                   {"spall", material.spall_strength.has_value()}}) {
+  for (const auto& [key, given] :
+       {std::pair{"strength", material.strength.has_value()},
+        {"eos", material.eos.has_value()},
+        {"damage", material.damage.has_value()},
+        {"spall (spall_strength)", material.spall_strength.has_value()}}) {
     if (given) beside += (beside.empty() ? "" : ", ") + std::string{key};
   }
   if (!beside.empty())

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "krater/core/parameters.hpp"
+#include "krater/materials/catalogue.hpp"
 #include "scene/declarations/declarations.hpp"
 #include "scene/yaml/block.hpp"
 #include "scene/yaml/cards.hpp"
@@ -39,8 +40,15 @@ Node generated_card(const Node& card, const std::string& path, Problems& problem
                grain = block.number("aggregate_size");
   const Node* model = block.require("model", "karagozian_case and cscm can be generated");
   const std::vector<std::string> known{std::begin(kGenerated), std::end(kGenerated)};
-  if (model && std::count(known.begin(), known.end(), model->text) == 0)
-    report_unknown(*model, "model to generate", model->text, known, problems);
+  if (model && std::count(known.begin(), known.end(), model->text) == 0) {
+    if (find_law("model", model->text) >= 0)
+      problems.add(model->file, model->line, model->path,
+                   "no rule makes the constants of " + model->text +
+                       " from a strength (known: " + join(known) +
+                       "); take a card of it by name, as card: concrete_48 " + "(krater models)");
+    else
+      report_unknown(*model, "model to generate", model->text, known, problems);
+  }
   block.finish();
   add_member(made, "density", number_node(density));
   Node law, family;

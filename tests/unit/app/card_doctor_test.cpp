@@ -104,6 +104,19 @@ TEST_SUITE("unit") {
     CHECK(first("concrete_48", published).empty());
     CHECK(first("concrete_48", ", model: {holmquist_johnson_cook: {tensile_strength: 40 MPa}}")
               .starts_with("tensile_strength 40 MPa is 0.83"));
+    const auto hjc = [&](const std::string& more) {
+      return first("concrete_48", ", model: {holmquist_johnson_cook: {" + more + "}}");
+    };
+    CHECK(hjc("compressive_strength: 48").find("MPa meant? (4.8e+07 Pa)") != std::string::npos);
+    CHECK(hjc("lock_compression: 10") ==
+          "lock_compression = 10 is not of a solid, 0.001 to 1.5; percent meant? (0.1 1)");
+    CHECK(hjc("crush_compression: 2e-6").starts_with("crush_compression = 2e-06 is not of"));
+    CHECK(hjc("fracture_energy: 7e7").starts_with("fracture_energy = 7e+07 J/m^2 is not of"));
+    const auto coarse =
+        doubts_of(read_card("{concrete: {fc: 39 MPa, model: cscm, aggregate_size: 9.5}}"));
+    REQUIRE(coarse.size() == 1);
+    CHECK(coarse[0].starts_with(
+        "aggregate_size = 9.5 m is not of a solid, 0.0001 to 0.15; mm meant?"));
   }
 
   TEST_CASE("doctor: a spall strength that the card offers is named") {

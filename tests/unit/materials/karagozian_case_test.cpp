@@ -259,8 +259,59 @@ TEST_SUITE("unit") {
     CHECK(published(kCards[1]).largest_length() == 0);
   }
 
+  TEST_CASE("karagozian_case: dilation by the share of the associated flow, strength at its end") {
+    const KaragozianCase kc = law("39.30", ", rate_factor: none, dilatancy: 0.6");
+    // F by the Lode angle of compression and the damage held.
+    const auto F = [&](double p, double lambda) {
+      const double x = p / kc.f, m = kc.surfaces.maximum(x, kc.surfaces.psi(x));
+      const double base = lambda > 5.6e-5 ? kc.surfaces.residual(x, m) : kc.surfaces.yield(x);
+      return kc.f * (kc.eta(lambda) * (m - base) + base);
+    };
+    for (const double lateral : {0.3, 1.0}) {
+      CAPTURE(lateral);
+      Specimen s{kc, 5e-3};
+      s.hydrostatic_to_pressure(lateral * kc.f);
+      double expected = 0;
+      int flowing = 0;
+      while (s.state[1] < 5e-5) {
+        const double p = s.p, lambda = s.state[1], flowed = s.plastic;
+        s.triaxial(2e-6, lateral * kc.f);
+        const double d = 1e-4 * kc.f, slope = (F(p + d, lambda) - F(p - d, lambda)) / (2 * d);
+        expected += 0.6 * slope * std::min(1.0, 3 * p / kc.f) * (s.plastic - flowed);
+        if (!(s.plastic > flowed)) continue;
+        ++flowing;
+        CHECK(s.q() == Approx(F(s.p, s.state[1])).epsilon(1e-6));
+      }
+      CHECK(flowing > 100);
+      CHECK(s.state[5] > 1e-4);
+      CHECK(s.state[5] == Approx(expected).epsilon(1e-3));
+      // What opens against the pressure is no heat; the rest is the unloading lines' curvature.
+      const double K = kc.bulk_modulus(s.state[2]);
+      const double stored = s.v * (s.p * s.p / (2 * K) + s.q() * s.q() / (6 * s.shear_modulus()));
+      CHECK(stored + s.plastic_work + s.crush == Approx(s.energy).epsilon(2e-3));
+    }
+    // Cracks open by the cut, not by this: direct tension keeps its energy to the last digit.
+    const auto pulled = [](const KaragozianCase& some) {
+      Specimen s{some, 5e-3};
+      for (int i = 0; i < 100000 && !s.failed; ++i) s.triaxial(-4e-7, 0);
+      return s;
+    };
+    const Specimen with = pulled(kc), without = pulled(regularised());
+    CHECK(with.energy == without.energy);
+    CHECK(with.state[5] == 0);
+    // Rubble flows at constant volume.
+    Specimen crushed{kc, 5e-3};
+    crushed.hydrostatic_to_pressure(kc.f);
+    for (int i = 0; i < 20000; ++i) crushed.triaxial(1e-5, kc.f);
+    const double opened = crushed.state[5];
+    CHECK(crushed.state[1] > 5.7e-4);
+    for (int i = 0; i < 5000; ++i) crushed.triaxial(1e-5, kc.f);
+    CHECK(crushed.state[5] == opened);
+  }
+
   TEST_CASE("karagozian_case: what is wrong is said") {
     CHECK_THROWS_WITH_AS(law("200", ""), doctest::Contains("10 to 100 MPa"), InputError);
+    CHECK_THROWS_WITH_AS(law("39.3e-6", ""), doctest::Contains("write 39 MPa"), InputError);
     CHECK_THROWS_WITH_AS(law("39.3", ", a0: 0, a1: 5"), doctest::Contains("never closes"),
                          InputError);
     CHECK_THROWS_WITH_AS(

@@ -47,6 +47,8 @@ void for_each_model(auto check) {
             "MPa, crush_compression: 7.947e-4, lock_pressure: 0.8 GPa, lock_compression: 0.1269, "
             "K1: 85 GPa, K2: -171 GPa, K3: 208 GPa}}"));
   check("karagozian_case", law_of<KaragozianCase>(kKc));
+  check("dilatant", law_of<KaragozianCase>(std::string{kKc}.replace(std::string{kKc}.size() - 2, 2,
+                                                                    ", dilatancy: 1}}")));
   for (const char* f : {"22.75 MPa", "39.3 MPa"})
     check(f, law_of<Cscm>(std::string{"density: 2243, model: {cscm: {compressive_strength: "} + f +
                           ", rate_factor: none}}"));

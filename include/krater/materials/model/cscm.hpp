@@ -238,7 +238,8 @@ struct Cscm {
   const char* problem() const {
     if (f < 20e6 || f > 58e6)
       return "compressive_strength (fc of a generated card): the constants are fitted for 20 to 58 "
-             "MPa; use karagozian_case, or holmquist_johnson_cook with a card, beyond";
+             "MPa (a bare number is in Pa: write 39 MPa); use karagozian_case, or "
+             "holmquist_johnson_cook with a card, beyond";
     return nullptr;
   }
   template <class Real>

@@ -14,6 +14,11 @@
 /// In nearly triaxial tension, f_d = 1 - 10 q/|p| > 0, also
 ///   d lambda = b3 k_d f_d d<eps_tension - f_t/K0>  of new largest tension strains.
 /// p >= -f_t r_f, after lambda_m -eta f_t r_f.
+/// Dilation, `dilatancy` omega > 0: the potential q - omega F, so that with eps_d, volume that
+/// shear opens and that is none of the matter's, p is that of ln(rho/rho0) + eps_d and
+///   d eps_d = w d gamma,  d eps_p = d gamma sqrt(1 + 2/9 w^2),  w = omega F'(p) <3p/f, 1> eta
+/// (eta: 1 before lambda_m), ours: none in tension, where cracks open by the cut, and none in
+/// rubble. With M the slope of p the step solves q_tr - 3G d gamma = F + M w F' d gamma.
 ///
 /// Regularised softening (default), ours: in tension after lambda_m
 ///   s_r = L g_t/G_f,   k_d = L f_t (lambda_m + integral of eta)/[b3 (G_f - L f_t^2/(2 K0))]
@@ -29,8 +34,8 @@
 /// G = 3/2 K_u (1 - 2 nu)/(1 + nu). Crushing, and the shear energy that a growing G forgets, are
 /// heat.
 ///
-/// Assumptions: no shear dilation (omega = 0); no energy in the pressure; the rate is the mean over
-/// about ten steps. The strength of a step has the pressure of its end.
+/// Assumptions: no energy in the pressure; the rate is the mean over about ten steps. The strength
+/// of a step has the pressure of its end.
 /// References: Malvar, Crawford, Wesevich, Simons, Int. J. Impact Eng. 19, 1997, 847-873; constants
 /// and tables as they stand in public cards and from memory (design page of the concrete laws).
 #pragma once
@@ -46,7 +51,7 @@ namespace krater::inline KRATER_ISA {
 struct KaragozianCase {
   double f, f_t, K0, nu, G_f, d_max, G_fc, softening, b1, b2, b3, s_lambda;
   double rate_factor, compression_most, tension_most;
-  double a0, a1, a2, a0y, a1y, a2y, a1f, a2f;
+  double a0, a1, a2, a0y, a1y, a2y, a1f, a2f, omega;
   double rho0, c0, G, shear_per_bulk, regular;
   double strength_t, modulus0, fracture, per_length_t, per_length_c, fixed_c;
   double parting, elastic_share;  ///< k_d b3 = parting L/(1 - elastic_share L)
@@ -110,6 +115,8 @@ struct KaragozianCase {
       {{"a2y", "1", Range::non_negative, 0.2575, "yield, times f"}, &Law::a2y},
       {{"a1f", "1", Range::positive, 0.4417, "residual"}, &Law::a1f},
       {{"a2f", "1", Range::non_negative, 0.1183, "residual, times f"}, &Law::a2f},
+      {{"dilatancy", "1", Range::fraction, 0.0, "share of the associated dilation", "omega"},
+       &Law::omega},
   };
 
   struct Lambda {
@@ -124,10 +131,13 @@ struct KaragozianCase {
   struct MeanRate {
     static constexpr FieldInfo info{"mean_rate", "s^-1", 1, "strain rate, mean over ten steps"};
   };
-  using State = Columns<field::Damage, Lambda, Compaction, Extension, MeanRate>;
+  struct Dilation {
+    static constexpr FieldInfo info{"dilation", "1", 1, "volume strain that shear opened"};
+  };
+  using State = Columns<field::Damage, Lambda, Compaction, Extension, MeanRate, Dilation>;
   template <class Real>
-  using Values = std::array<Real, 5>;
-  Values<double> initial_state() const { return {0.0, 0.0, 0.0, 0.0, 0.0}; }
+  using Values = std::array<Real, 6>;
+  Values<double> initial_state() const { return {}; }
 
   void prepare(const MaterialConstants& constants) {
     constexpr double MPa = 1e6;
@@ -221,7 +231,8 @@ struct KaragozianCase {
     if (!(nu < 0.5)) return "poisson_ratio must lie below 0.5";
     if (f < 10.0 * MPa || f > 100.0 * MPa)
       return "compressive_strength (fc of a generated card): the constants are generated for 10 to "
-             "100 MPa; use holmquist_johnson_cook with a card beyond";
+             "100 MPa (a bare number is in Pa: write 39 MPa); use holmquist_johnson_cook with a "
+             "card beyond";
     if (!(strength_t < f / 3.0)) return "tensile_strength must lie below a third of f";
     for (const double at : {1.0 / 3.0, 2.3 / 3.0})
       if (!(surfaces.psi(at) >= 0.5 && surfaces.psi(at) <= 1.0))
@@ -249,6 +260,7 @@ struct KaragozianCase {
   struct Step {
     Real maximum, yield, residual;  ///< stress differences, Lode factor and rate included
     Real before, after;             ///< d lambda per plastic strain before and after the peak
+    Real opens, hardens;            ///< w, and M w F', by which dilation strengthens
     Real G;
   };
   template <class Real>
@@ -268,14 +280,14 @@ struct KaragozianCase {
       const Real left = max(Real(0.0), eta.x[k + 1] - max(at, Real(eta.x[k])));
       const Real width = select(at < Real(eta.x[k + 1]), left, Real(0.0));
       const Real slope = eta.slope[k] * h * (s.maximum - (late ? s.residual : s.yield));
-      const Real resist = fma(Real(3.0), s.G, slope), longest = width / h;
+      const Real resist = fma(Real(3.0), s.G, slope) + s.hardens, longest = width / h;
       const Real wanted = select(resist > Real(0.0), excess / resist, longest);
       const Real d = select(excess > Real(0.0), min(longest, wanted), Real(0.0));
       excess = fnma(resist, d, excess);
       plastic = plastic + d;
       at = fma(h, d, at);
     }
-    const Real rest = max(Real(0.0), excess) / (3.0 * s.G);  // this order keeps a NaN
+    const Real rest = max(Real(0.0), excess) / fma(Real(3.0), s.G, s.hardens);  // keeps a NaN
     return {plastic + rest, fma(s.after, rest, at)};
   }
 
@@ -284,9 +296,9 @@ struct KaragozianCase {
     const KaragozianCase& law;
     Values<Real> state;
 
-    KRATER_FORCE_INLINE CoupledUpdate<Real, 5> update(const CoupledStep<Real>& step) const {
-      const auto& [damage, lambda, largest, extension, mean_rate] = state;
-      const Real strain = log(step.rho * (1.0 / law.rho0));
+    KRATER_FORCE_INLINE CoupledUpdate<Real, 6> update(const CoupledStep<Real>& step) const {
+      const auto& [damage, lambda, largest, extension, mean_rate, dilation] = state;
+      const Real strain = log(step.rho * (1.0 / law.rho0)) + dilation;
       const Real reached = max(strain, largest);  // this order keeps a NaN of the state
       const Real K = law.bulk_modulus(reached),
                  own = fnma(K, reached - strain, law.pressure(reached));
@@ -300,8 +312,10 @@ struct KaragozianCase {
       const Real cut = -law.strength_t * tension * cut_share, p = max(cut, own);
       const Real into = clamp(p * (3.0 / law.f), Real(0.0), Real(1.0));
       const Real faster = fma(whole, into, tension);
-      const Step<Real> s = surfaces_at(step, p, faster);
+      const Real slope = select(strain < largest, K, law.pressure.slope_at(strain));
+      const Step<Real> s = surfaces_at(step, p, faster, law.omega * into * cut_share, slope);
       const Flow<Real> flow = law.flow(s, step.q, lambda);
+      const Real opened = s.opens * flow.plastic;
       const Real q = min(step.q, max(Real(0.0), fnma(3.0 * s.G, flow.plastic, step.q)));
       const Real drawn = max(extension, -strain);
       const Real after = flow.lambda + parted(step.length, drawn, p, q);
@@ -311,15 +325,16 @@ struct KaragozianCase {
       const Real seen = Real(0.0) * (damage + extension);
       return {q,
               flow.plastic + seen,
-              {own, Real(0.0)},
+              {fma(slope, opened, own), Real(0.0)},
               cut,
               K,
-              heat(step, reached, q, s.G),
-              {max(damage, shown), after, reached, drawn, rate},
+              max(-q * flow.plastic * step.v,
+                  fnma(max(Real(0.0), own) * step.v, opened, heat(step, reached, q, s.G))),
+              {max(damage, shown), after, reached, drawn, rate, dilation + opened},
               after >= Real(kEnd)};
     }
-    KRATER_FORCE_INLINE Step<Real> surfaces_at(const CoupledStep<Real>& step, Real p,
-                                               Real faster) const {
+    KRATER_FORCE_INLINE Step<Real> surfaces_at(const CoupledStep<Real>& step, Real p, Real faster,
+                                               Real open, Real slope) const {
       const Real x = p / (law.f * faster), ratio = law.surfaces.psi(x);
       const Real lode = willam_warnke(lode_cosine(step.trial, step.q), ratio);
       const Real scale = law.f * faster * lode, m = law.surfaces.maximum(x, ratio);
@@ -328,11 +343,23 @@ struct KaragozianCase {
       const MaskOf<Real> pulled = p < Real(0.0);
       const Real slow = fma(Real(0.01 * law.s_lambda), faster - 1.0, Real(1.0));
       const Real power = select(pulled, Real(law.b2), Real(law.b1));
-      const Real h = exp(-power * log(z)) / slow;
+      const Real level = max(Real(0.0), law.eta(state[1]));
+      const Real base = select(state[1] > Real(kPeak), law.surfaces.residual_slope(x),
+                               law.surfaces.yield_slope(x));
+      const Real rise = lode * fma(level, law.surfaces.maximum_slope(x, ratio) - base, base);
+      const Real opens = open * rise;
+      const Real longer = sqrt(fma(Real(2.0 / 9.0), opens * opens, Real(1.0)));
+      const Real h = exp(-power * log(z)) / slow * longer;
       const Real tensile = fma(Real(law.per_length_t), step.length, Real(1.0 - law.regular));
       const Real crushed = fma(Real(law.per_length_c), step.length, Real(law.fixed_c));
-      return {scale * m, scale * law.surfaces.yield(x),        scale * law.surfaces.residual(x, m),
-              h,         h * select(pulled, tensile, crushed), law.shear_modulus(state)};
+      return {scale * m,
+              scale * law.surfaces.yield(x),
+              scale * law.surfaces.residual(x, m),
+              h,
+              h * select(pulled, tensile, crushed),
+              opens,
+              slope * opens * rise,
+              law.shear_modulus(state)};
     }
     /// Damage by triaxial tension.
     KRATER_FORCE_INLINE Real parted(Real length, Real drawn, Real p, Real q) const {

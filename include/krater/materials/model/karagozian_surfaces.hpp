@@ -51,6 +51,26 @@ struct KaragozianSurfaces {
     const Real pressed = max(Real(0.0), p);
     return min(maximum, pressed / fma(Real(a2f), pressed, Real(a1f)));
   }
+
+  /// By the pressure, p > 0, the meridians' ratio held; of the hyperbola p/(first + second p).
+  template <class Real>
+  static KRATER_FORCE_INLINE Real rise(Real p, double first, double second) {
+    const Real below = fma(Real(second), max(Real(0.0), p), Real(first));
+    return first / (below * below);
+  }
+  template <class Real>
+  KRATER_FORCE_INLINE Real maximum_slope(Real p, Real ratio) const {
+    return select(p < Real(kLow), 1.5 / ratio, rise(p, a1, a2));
+  }
+  template <class Real>
+  KRATER_FORCE_INLINE Real yield_slope(Real p) const {
+    return select(p < Real(kYieldLow), Real((yield_corner - 1.35 * f_t) / kYieldLow),
+                  rise(p, a1y, a2y));
+  }
+  template <class Real>
+  KRATER_FORCE_INLINE Real residual_slope(Real p) const {
+    return rise(p, a1f, a2f);
+  }
 };
 
 /// Strength increase with the rate e [1/s], f in MPa (CEB's curves with the corrected branches):

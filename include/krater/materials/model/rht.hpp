@@ -249,7 +249,9 @@ struct Rht {
       const Real opens = fma(eps_p, Real(law.xi * law.G / law.f), cap.opens);
       const Real into =
           clamp((cap.x - opens) / max(Real(1e-9), cap.closes - opens), Real(0.0), Real(1.0));
-      s.elastic = s.elastic * sqrt(fnma(into, into, Real(1.0)));
+      // On the crush curve the root would make 1e-5 of strength of the 1e-11 by which p is known.
+      constexpr double noise = 1e-9;
+      s.elastic = s.elastic * sqrt(max(Real(0.0), fnma(into, into, Real(1.0 - noise))));
       return s;
     }
     /// The elastic limit is that without the cap.

@@ -36,6 +36,13 @@ struct Polyline {
       y = fma(Real(slope[k]), min(Real(width[k]), max(Real(0.0), at - x[k])), y);
     return y;
   }
+  /// Of the piece that begins at `at` or holds it, as if the first and the last had no ends.
+  template <class Real>
+  KRATER_FORCE_INLINE Real slope_at(Real at) const {
+    Real found = Real(slope[0]);
+    for (unsigned k = 1; k + 1 < N; ++k) found = select(at < Real(x[k]), found, Real(slope[k]));
+    return found;
+  }
 };
 
 }  // namespace krater::inline KRATER_ISA
