@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Diameters at a height: a band of points about it (definitions: measure/measures.hpp).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -228,7 +229,8 @@ double diameter(const BodyPoints& body, const MeasureContext& context, double at
 }
 
 double largest_diameter(const BodyPoints& body, const MeasureContext& context, double within) {
-  const auto [low, top] = surface_ends(body, context, dimension(context.frame) - 1);
+  const std::array<double, 2> ends = surface_ends(body, context, dimension(context.frame) - 1);
+  const double low = ends[0], top = ends[1];  // clang 14 captures no bindings
   const double high = within > 0 ? std::min(top, low + within) : top;
   if (!body.edges.empty()) {
     double widest = kNothing;
