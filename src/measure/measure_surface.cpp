@@ -17,7 +17,6 @@ namespace krater {
 
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTouching = 1.0;  // a body this near to a symmetry plane, in a, is cut by it
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
