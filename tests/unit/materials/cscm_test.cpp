@@ -75,8 +75,9 @@ TEST_SUITE("unit") {
         {"20", 0.84803, 0.69235}, {"22.75", 0.92281, 0.69491}, {"28", 1.00034, 0.85168},
         {"30", 1.01038, 0.90403}, {"35", 1.01212, 0.98147},    {"39.3", 1.00051, 1.00299},
         {"46", 0.97583, 1.00518}, {"48", 0.96848, 1.00511},    {"58", 0.93835, 0.99925}};
-    for (const auto& [f, fhwa, rev3] : table) {
-      CAPTURE(std::string{f});
+    for (const auto& [strength, fhwa, rev3] : table) {
+      const std::string f = strength;
+      CAPTURE(f);
       const Cscm a = law(f, ", set: fhwa"), b = law(f, ", set: rev3, cap_start: published");
       CHECK(a.unconfined() / a.f == Approx(fhwa).epsilon(1e-5));
       CHECK(b.unconfined() / b.f == Approx(rev3).epsilon(1e-5));
