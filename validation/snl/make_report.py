@@ -343,9 +343,10 @@ def campaign(study, tests):
     others["cores"] = other_scenes.run_cores(study)
     study.use(SCENE)
     runs[label("HJC", tests["10"], 3)] = study.run(label("HJC", tests["10"], 3), tests["10"].settings("HJC", 3), 5)
+    others["space"] = other_scenes.run_space(study)
+    study.use(SCENE)
     runs |= shots_of(LAST)
     vary(settings[DECISIVE:])
-    others["space"] = other_scenes.run_space(study)
     return runs, variants, others
 
 
