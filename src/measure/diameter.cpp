@@ -182,6 +182,7 @@ class Slices {
       : body_{body},
         last_{index(dimension(context.frame) - 1)},
         width_{node_spacing(context)},
+        reach_{band_reach(context)},
         low_{range(body, static_cast<int>(last_))[0]} {
     for (std::size_t p = 0; p < body.count(); ++p) {
       const std::size_t slice = slice_of(body.x[p][last_]);
@@ -191,9 +192,8 @@ class Slices {
   }
 
   BodyPoints about(double z0) const {
-    const double reach = 1.5 * kBand * width_;  // band_reach
     BodyPoints out;
-    for (std::size_t s = slice_of(z0 - reach); s <= slice_of(z0 + reach); ++s) {
+    for (std::size_t s = slice_of(z0 - reach_); s <= slice_of(z0 + reach_); ++s) {
       if (s >= slices_.size()) break;
       for (const std::size_t p : slices_[s]) {
         out.x.push_back(body_.x[p]);
@@ -211,7 +211,7 @@ class Slices {
 
   const BodyPoints& body_;
   std::size_t last_;
-  double width_, low_;
+  double width_, reach_, low_;
   std::vector<std::vector<std::size_t>> slices_;
 };
 
