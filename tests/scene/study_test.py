@@ -116,14 +116,20 @@ def resumed():
     check(before == {p: p.stat().st_mtime_ns for p in before}, "what was done is not done again")
 
 
-def stopped_study():
-    """A study that is asked to end: the member goes on later, and has cost both parts."""
-    write("asked.yaml", convergence("[1 mm, 0.5 mm, 0.04 mm]"))
-    process = subprocess.Popen(command("study", "asked.yaml", "-j", 1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                               text=True, env=environment())
+def at_the_last_of_three(name):
+    """A study that has two of its three members and begins the last."""
+    process = subprocess.Popen(command("study", name, "-j", 1), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=environment())
     for line in process.stderr:
         if "[2/3]" in line:
             break
+    return process
+
+
+def stopped_study():
+    """A study that is asked to end: the member goes on later, and has cost both parts."""
+    write("asked.yaml", convergence("[1 mm, 0.5 mm, 0.04 mm]"))
+    process = at_the_last_of_three("asked.yaml")
     folder, end = pathlib.Path("asked_study/members"), time.monotonic() + 30
     while not (folder / "cell=0.04mm/log.txt").exists() and time.monotonic() < end:
         time.sleep(0.005)
@@ -143,11 +149,7 @@ def stopped_study():
 def killed_member():
     """A member that the system ended, for want of memory mostly, says nothing of its settings: it is tried again."""
     write("short.yaml", convergence("[1 mm, 0.5 mm, 0.05 mm]"))
-    process = subprocess.Popen(command("study", "short.yaml", "-j", 1), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, env=environment())
-    for line in process.stderr:
-        if "[2/3]" in line:
-            break
+    process = at_the_last_of_three("short.yaml")
     end, children = time.monotonic() + 30, []
     while not children and time.monotonic() < end:
         children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text(encoding="utf-8").split()
