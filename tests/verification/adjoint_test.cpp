@@ -28,7 +28,9 @@ class Rig {
     settings_.geometry = &run.sim->geometry();
     settings_.dt = 1;
     settings_.average_cells = averaging;
-    zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles), cells_.reserve(kCellDoubles);
+    zeros_.reserve(9 * kLanes), halo_.reserve(216 * kNodeDoubles),
+        quadratics_.reserve(static_cast<std::size_t>(quadratic_doubles(3))),
+        cells_.reserve(kCellDoubles);
     boundary_.relink(grid());
     local_.resize(grid().patches().size());
   }
@@ -103,8 +105,8 @@ class Rig {
     local_[p].reserve(groups * static_cast<std::size_t>(data_.columns.local_stride));
     pressures_.reserve(groups * kLanes);
     leavers_.resize(std::max(leavers_.size(), groups));
-    return {halo_.data(),      nullptr,         local_[p].data(), cells_.data(),
-            pressures_.data(), leavers_.data(), zeros_.data()};  // no fluid
+    return {halo_.data(),  quadratics_.data(), nullptr,         local_[p].data(),  // no fluid
+            cells_.data(), pressures_.data(),  leavers_.data(), zeros_.data()};
   }
 
   Run& run_;
@@ -113,7 +115,7 @@ class Rig {
   BoundarySet boundary_;
   std::unique_ptr<Kernels> kernels_;
   SweepSettings settings_;
-  AlignedBuffer zeros_, halo_, cells_, pressures_;
+  AlignedBuffer zeros_, halo_, quadratics_, cells_, pressures_;
   std::vector<AlignedBuffer> local_;
   std::vector<unsigned char> leavers_;
 };

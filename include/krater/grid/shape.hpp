@@ -21,7 +21,7 @@ struct Knots {
 
 /// `f`: distance to the first of the three nodes in cells, in [1/2, 3/2).
 struct QuadraticBSpline : ThreeNodes {
-  static constexpr bool has_width = false;
+  static constexpr bool has_width = false, quadratic_in_cell = true;
   static KRATER_FORCE_INLINE Knots at(Pack f, Pack /*lp*/) {
     const Pack a = 1.5 - f, b = f - 1.0, c = f - 0.5;
     return {{0.5 * (a * a), fnma(b, b, 0.75), 0.5 * (c * c)}, {-a, -2.0 * b, c}};
@@ -29,7 +29,7 @@ struct QuadraticBSpline : ThreeNodes {
 };
 
 struct Linear : ThreeNodes {
-  static constexpr bool has_width = false;
+  static constexpr bool has_width = false, quadratic_in_cell = false;
   static KRATER_FORCE_INLINE Knots at(Pack f, Pack /*lp*/) {
     const Mask left = f < Pack(1.0);  // between the first and the second node
     const Pack zero = 0.0, one = 1.0;
@@ -40,7 +40,7 @@ struct Linear : ThreeNodes {
 
 /// Half-width of the point in cells, in (0, 1/2].
 struct Gimp : ThreeNodes {
-  static constexpr bool has_width = true;
+  static constexpr bool has_width = true, quadratic_in_cell = false;
   static KRATER_FORCE_INLINE Pack hat(Pack z) { return max(1.0 - abs(z), Pack(0.0)); }
   static KRATER_FORCE_INLINE Pack antiderivative(Pack z) {
     const Pack u = clamp(z, Pack(-1.0), Pack(1.0));

@@ -200,8 +200,8 @@ SweepSettings MpmStep::settings(double dt, int level) const {
 
 SweepScratch MpmStep::scratch() {
   ThreadMemory& m = memory_[static_cast<unsigned>(thread_index())];
-  return {m.halo.data(),      m.pressure_halo.data(), m.local.data(), m.cells.data(),
-          m.pressures.data(), m.leavers.data(),       zeros_.data()};
+  return {m.halo.data(),  m.quadratics.data(), m.pressure_halo.data(), m.local.data(),
+          m.cells.data(), m.pressures.data(),  m.leavers.data(),       zeros_.data()};
 }
 
 void MpmStep::relink() {
@@ -224,6 +224,7 @@ void MpmStep::provide_memory() {
   memory_.resize(static_cast<std::size_t>(std::max(threads(), 1)));
   for (ThreadMemory& m : memory_) {
     m.halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) * kNodeDoubles);
+    m.quadratics.reserve(static_cast<std::size_t>(quadratic_doubles(grid_.geometry().dimension)));
     if (!fluid_patches_.empty())
       m.pressure_halo.reserve(static_cast<std::size_t>(tile_nodes(grid_.geometry().dimension)) *
                               kNodeDoubles);

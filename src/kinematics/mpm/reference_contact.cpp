@@ -271,8 +271,8 @@ void ReferenceContact::project(double share_of_change) {
     patch.points.pad(own.mass);
     Memory& m = memory_[static_cast<std::size_t>(thread_index())];
     kernels_.scatter(patch, carrier_data_, settings,
-                     {m.halo.data(), nullptr, nullptr, m.cells.data(), m.pressures.data(), nullptr,
-                      zeros_.data()});
+                     {m.halo.data(), nullptr, nullptr, nullptr, m.cells.data(), m.pressures.data(),
+                      nullptr, zeros_.data()});
   });
   for_each(current_.node_blocks().size(),
            [&](std::size_t b) { kernels_.sum_tiles(current_, current_.node_blocks()[b]); });

@@ -69,6 +69,7 @@ void gather_nodes(GatherPass& pass) {
   double(&base)[3] = sums.base;
   for (int a = 0; a < D; ++a) base[a] = s.gamma > 0 ? get(view.velocity(0, a), 0) : 0;
   if constexpr (T::velocity) CellLedger<D>{w.cells + kCellLedger}.clear();
+  const TileNodes<D, Shape> nodes{w, grid};
   LaneWeights<D> lw;
   PointSums<D> n;
   for (int g = 0; g < kFetchAhead; ++g) fetch_record(patch, stride, g);
@@ -76,9 +77,9 @@ void gather_nodes(GatherPass& pass) {
     fetch_record(patch, stride, g + kFetchAhead);
     compute_weights<D, Shape, Affine && T::velocity>(grid, origin, view.grid_position,
                                                      reading(view.half_width), g, lw);
-    gather_group<D>(w.halo, lw, n);
+    nodes.gather(lw, n);
     double* cell = w.pressures + kLanes * g;
-    store(cell, local_cell<D>(grid, origin, view.grid_position, g).index);
+    store(cell, load(lw.cell));
     const Alone alone = alone_points<D>(view, n, lw, g);
 
     note_velocity_fault<D>(patch, n, g);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 /// \file kinematics/mpm/gather_views.hpp
-/// What the gather reads and writes: the columns of a patch, and sums over the nodes that 8 points
-/// see.
+/// What the gather reads and writes: the columns of a patch.
 #include "krater/kinematics/mpm/scatter.hpp"
 
 namespace krater::inline KRATER_ISA {
@@ -47,23 +46,5 @@ KRATER_FORCE_INLINE GatherViews make_views(Patch& patch, const PointColumns& c,
 }
 
 KRATER_FORCE_INLINE ReadView reading(WriteView v) { return {v.base, v.stride}; }
-
-/// Nodal sums of 8 points, one pack per channel: V[c] value, G[a][c] slope along axis a.
-template <int Dim>
-struct PointSums {
-  Pack V[8], G[Dim][8];
-};
-
-template <int Dim>
-KRATER_FORCE_INLINE void gather_group(const double* halo, const LaneWeights<Dim>& lw,
-                                      PointSums<Dim>& out) {
-  for (int l = 0; l < kLanes; ++l) {
-    const Gathered<Dim> point = gather_point<Dim>(halo, lw, l);
-    out.V[l] = point.V;
-    for (int a = 0; a < Dim; ++a) out.G[a][l] = point.G[a];
-  }
-  transpose8(out.V);
-  for (int a = 0; a < Dim; ++a) transpose8(out.G[a]);
-}
 
 }  // namespace krater::inline KRATER_ISA

@@ -115,11 +115,7 @@ struct PressureSweep {
   KRATER_FORCE_INLINE void scatter(const LaneWeights<D>& lw, Channels<D>& channels) const {
     transpose8(channels.A);
     for (int a = 0; a < D; ++a) transpose8(channels.B[a]);
-    for (int l = 0; l < kLanes; ++l) {
-      Pack B[D];
-      for (int a = 0; a < D; ++a) B[a] = channels.B[a][l];
-      scatter_point<D, false>(tile, lw, l, channels.A[l], B);
-    }
+    for (int l = 0; l < kLanes; ++l) scatter_point<D, false>(tile, lw, l, channels);
   }
   template <class Call>
   void for_cells(const Call& call) const {

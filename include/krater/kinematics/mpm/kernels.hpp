@@ -68,9 +68,17 @@ struct MomentumSettings {
 /// Of each cell volume, dilatation, that of the mean gradient, and the record of the ledger.
 inline constexpr std::size_t kCellDoubles = 11 * kBlockNodes;
 
+/// A tile by cells along the last axis, three records each (mpm/node_sums.hpp): doubles of a row of
+/// cells, and of all rows.
+constexpr int quadratic_row(int dimension) { return 3 * block_edge(dimension) * kNodeDoubles; }
+constexpr int quadratic_doubles(int dimension) {
+  return tile_nodes(dimension) / tile_edge(dimension) * quadratic_row(dimension);
+}
+
 /// Memory of one thread.
 struct SweepScratch {
   double* halo;            ///< tile_nodes * kNodeDoubles
+  double* quadratics;      ///< the same by cells along the last axis: quadratic_doubles()
   double* pressure_halo;   ///< the same, of the second records
   double* local;           ///< groups of a patch * local stride
   double* cells;           ///< kCellDoubles: sums and means of each cell

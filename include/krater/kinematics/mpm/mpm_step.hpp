@@ -238,7 +238,7 @@ class MpmStep final : public Kinematics {
   std::vector<std::size_t> fluid_patches_, fluid_blocks_;
   std::vector<Removed> removed_;
   struct ThreadMemory {
-    AlignedBuffer halo, pressure_halo, local, cells, pressures;
+    AlignedBuffer halo, quadratics, pressure_halo, local, cells, pressures;
     std::vector<unsigned char> leavers;
     double scatter_seconds = 0;  ///< of the scatters ahead in one sweep
   };

@@ -8,6 +8,7 @@
 #include "krater/kinematics/frames.hpp"
 #include "krater/kinematics/mpm/cells.hpp"
 #include "krater/kinematics/mpm/configuration.hpp"
+#include "krater/kinematics/mpm/node_sums.hpp"
 
 namespace krater::inline KRATER_ISA {
 
@@ -23,6 +24,14 @@ struct ForceAverages {
   const double* mean;   ///< per cell: sum V (p + q) / sum V
   const double* cells;  ///< 8 per group: cell of each point
 };
+
+/// Ask for part of the tile, which comes from memory, while group `g` is looked at.
+template <int Dim>
+KRATER_FORCE_INLINE void fetch_tile(double* tile, int g) {
+  constexpr int nodes = 12;  // a full patch has 20 to 64 groups for 216 or 100 nodes
+  for (int n = nodes * g; n < nodes * (g + 1) && n < tile_nodes(Dim); ++n)
+    __builtin_prefetch(tile + kNodeDoubles * n, 1);
+}
 
 /// First pass: every point of the patch, padding included, lies in its block (what follows indexes
 /// memory with positions), and the cell averages of the pressure p + q that enters the force. One
@@ -42,6 +51,7 @@ bool first_pass(Patch& patch, const PointColumns& c, const SweepSettings& s,
     clear_cells(beta);
   }
   for (int g = 0; g < patch.points.groups(); ++g) {
+    fetch_tile<Dim>(patch.tile.data(), g);
     const LocalCell cell = local_cell<Dim>(*s.geometry, origin, x, g);
     if (!all(cell.inside)) {
       patch.result.fault = {FaultKind::not_finite_input, g, bits(!cell.inside)};
@@ -66,13 +76,6 @@ KRATER_FORCE_INLINE Pack force_pressure(const ForceAverages* averages, Pack own,
   const double* cells = averages->cells + kLanes * g;
   return fma(look_up(averages->beta, cells), look_up(averages->mean, cells) - own, own);
 }
-
-/// Channel vectors of 8 points, lane by lane after transposition: value part A, slope parts B_a.
-template <int Dim>
-struct Channels {
-  alignas(64) Pack A[8];
-  alignas(64) Pack B[Dim][8];
-};
 
 template <class Frame, bool Affine, class Configuration>
 KRATER_FORCE_INLINE Pack load_channels(const Patch& patch, const PointColumns& c,
@@ -147,11 +150,7 @@ void scatter_patch(Patch& patch, const BodyKernelData& body, const SweepSettings
     const unsigned bad = bits(!is_finite(check) & first_lanes(patch.points.count() - kLanes * g));
     if (bad != 0 && patch.result.fault.kind == FaultKind::none)
       patch.result.fault = {FaultKind::not_finite_input, g, bad};
-    for (int l = 0; l < kLanes; ++l) {
-      Pack B[D];
-      for (int a = 0; a < D; ++a) B[a] = channels.B[a][l];
-      scatter_point<D, Affine>(tile, lw, l, channels.A[l], B);
-    }
+    for (int l = 0; l < kLanes; ++l) scatter_point<D, Affine>(tile, lw, l, channels);
   }
 }
 

@@ -6,8 +6,12 @@
 #pragma once
 
 #include "krater/core/lane_math.hpp"
+#include "krater/core/simd_register.hpp"
 
 namespace krater::inline KRATER_ISA {
+
+/// Where a Pack takes two registers it is such a pair already, and two do not fit into sixteen.
+inline constexpr bool kSolvesPairs = kRegisterParts == 1;
 
 struct PackPair {
   Pack a, b;

@@ -17,17 +17,19 @@ namespace krater::inline KRATER_ISA {
 
 /// a of b = X + a I with det b = 1, X traceless.
 ///
-/// Newton in delta = a - 1 (no cancellation at small strain) from delta = X:X/6. That start lies to
-/// the right of the local minimum of the cubic for every X, because (1 + c/3)^2 > c/3, so the first
-/// step lands on or above the largest root and the rest descend to it: convergence is certain. An
-/// error in `a` enters the stress only through dev(f f^T), i.e. times the strain of the step; 1e-7
-/// before the last quadratic step is round-off after it.
+/// Newton in delta = a - 1 (no cancellation at small strain) with c = X:X/2 and d = det X, from
+/// delta = (c - d)/3, whose residual is of the order of c^(5/2): one step in metals. It lies to the
+/// right of the local minimum of the cubic, -1 + sqrt(c/3), up to c = 1: |d| <= 2 (c/3)^(3/2), and
+/// 1 - u + u^2 - 2 u^3/3 > 0 with u = sqrt(c/3) < 1.2. Beyond, c/3 does, for every X, because
+/// (1 + c/3)^2 > c/3. So the first step lands on or above the largest root and the rest descend to
+/// it: convergence is certain. An error in `a` enters the stress only through dev(f f^T), i.e.
+/// times the strain of the step; 1e-7 before the last quadratic step is round-off after it.
 template <class Real>
 KRATER_FORCE_INLINE Real isotropic_part(const Sym3<Real>& X) {
-  constexpr int cap = 60;  // 2 or 3 in metals; large X costs log(X)/log(3/2) more
+  constexpr int cap = 60;  // 1 or 2 in metals; large X costs log(X)/log(3/2) more
   const Real c = contract(X, X) * 0.5;
   const Real d = det(X);
-  Real delta = c * (1.0 / 3.0);
+  Real delta = select(c < Real(1.0), c - d, c) * (1.0 / 3.0);
   MaskOf<Real> active = c > Real(0.0);
   for (int i = 0; i < cap && any(active); ++i) {
     const Real value = fma(fma(delta + 3.0, delta, 3.0 - c), delta, d - c);

@@ -111,12 +111,25 @@ class PlasticReturnStage final : public FlowingStage<Law> {
   using FlowingStage<Law>::FlowingStage;
 
   void apply(const BatchData& batch) const override {
-    // Two groups at a time (returns/pack_pair.hpp); an odd last group is paired with itself.
-    for (int g = 0; g < batch.groups; g += 2)
-      apply_pair(batch, g, g + 1 < batch.groups ? g + 1 : g);
+    if constexpr (kSolvesPairs) {
+      // Two groups at a time (returns/pack_pair.hpp); an odd last group is paired with itself.
+      for (int g = 0; g < batch.groups; g += 2)
+        apply_pair(batch, g, g + 1 < batch.groups ? g + 1 : g);
+    } else {
+      for (int g = 0; g < batch.groups; ++g) apply_one(batch, g);
+    }
   }
 
  private:
+  KRATER_FORCE_INLINE void apply_one(const BatchData& batch, int g) const {
+    const Trial<Pack> trial = this->trial(batch, g);
+    const auto eps = view(batch, this->eps_);
+    const auto G = view(batch, this->shear_);
+    this->finish(batch, g, trial,
+                 plastic_step(this->law_, this->start(batch, g), trial.q, eps(g), G(g),
+                              trial.strain, batch.dt));
+  }
+
   KRATER_FORCE_INLINE void apply_pair(const BatchData& batch, int g, int h) const {
     const Trial<Pack> a = this->trial(batch, g), b = this->trial(batch, h);
     const auto eps = view(batch, this->eps_);

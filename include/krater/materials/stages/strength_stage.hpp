@@ -90,7 +90,9 @@ class StrengthStage final : public Stage {
   }
 
   void apply(const BatchData& batch) const override {
-    if constexpr (Yielding<Law>) {
+    if constexpr (Yielding<Law> && !kSolvesPairs) {
+      for (int g = 0; g < batch.groups; ++g) apply_one(batch, g);
+    } else if constexpr (Yielding<Law>) {
       // Two groups at a time (returns/pack_pair.hpp); an odd last group is paired with itself.
       for (int g = 0; g < batch.groups; g += 2)
         apply_pair(batch, g, g + 1 < batch.groups ? g + 1 : g);
@@ -112,6 +114,14 @@ class StrengthStage final : public Stage {
   KRATER_FORCE_INLINE Trial<Pack> trial(const BatchData& batch, int g, Modulus G) const {
     return trial_step(load_sym3(view(batch, s_), g), load_mat3(view(batch, dtL_), g),
                       load_sym3(view(batch, strain_), g), G);
+  }
+
+  KRATER_FORCE_INLINE void apply_one(const BatchData& batch, int g) const {
+    const StartState<Pack> at = start(batch, g);
+    const auto G = shear_at(law_, at, G_);
+    const Trial<Pack> of = trial(batch, g, G);
+    yield(batch, g, of, G,
+          plastic_step(law_, at, of.q, view(batch, eps_)(g), G, of.strain, batch.dt));
   }
 
   KRATER_FORCE_INLINE void apply_pair(const BatchData& batch, int g, int h) const {
