@@ -147,7 +147,9 @@ Band flat_band(const BodyPoints& body, const MeasureContext& context, double z0)
 BodyPoints points_about(const BodyPoints& body, const MeasureContext& context, double z0) {
   const int dim = dimension(context.frame);
   const double reach = band_reach(context);
-  BodyPoints near = points_between(body, dim - 1, z0 - reach, z0 + reach);
+  BodyPoints own;
+  const BodyPoints& found = layer_of(body, dim - 1, z0 - reach, z0 + reach, own);
+  BodyPoints near = &found == &own ? std::move(own) : found;
   near.memo = std::make_shared<SurfaceMemo>();
   near.memo->bounds.emplace();
   for (int d = 0; d < dim; ++d) near.memo->bounds->all[index(d)] = range(body, d);
@@ -241,9 +243,9 @@ double largest_diameter(const BodyPoints& body, const MeasureContext& context, d
   const int last = dimension(context.frame) - 1;
   const double reach = band_reach(context);
   const bool part = high < top;
-  const BodyPoints lower =
-      part ? points_between(body, last, low - reach, high + reach) : BodyPoints{};
-  const Slices slices{part ? lower : body, context};
+  BodyPoints own;
+  const Slices slices{part ? layer_of(body, last, low - reach, high + reach, own) : all_of(body),
+                      context};
   const double heights = std::max(1.0, std::ceil((high - low) / node_spacing(context)));
   std::vector<double> found(static_cast<std::size_t>(heights) + 1);
   for_each(found.size(), [&](std::size_t i) {
