@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -133,16 +135,32 @@ TEST_SUITE("verification") {
     }
   }
 
-  TEST_CASE("measures by layers see sparse points as those of all points do") {
+  TEST_CASE("measures by layers see a sparse point as those of all points do") {
     Run run = start_input("taylor_copper.yaml", with({"grid.cell=0.381 mm"}));
     Measurements measures{*run.sim};
     const double dense = measures.now(*run.sim, {0}).front();
-    const int slot = run.sim->bodies()[0]->slot(field::Density::info);
-    const int z = run.sim->bodies()[0]->slot(field::Position::info, 1);
-    for (int s = 0; s < run.sim->set_count(); ++s)
-      for (int i = 0; i < run.sim->set(s).count(); ++i)
-        if (run.sim->value(s, i, z) > 24e-3) run.sim->set_value(s, i, slot, 10);
+    const Body& body = *run.sim->bodies()[0];
+    run.sim->set_value(0, 3, body.slot(field::Density::info), 10);
+    // between four nodes, none of which it fills by half: no surface is there
+    run.sim->set_value(0, 3, body.slot(field::Position::info, 0), 5.5 * 0.381e-3);
+    run.sim->set_value(0, 3, body.slot(field::Position::info, 1), 68.5 * 0.381e-3);
     compare_measures(measures, run);
-    CHECK(measures.now(*run.sim, {0}).front() > dense + 0.1e-3);
+    CHECK(measures.now(*run.sim, {0}).front() > dense + 0.3e-3);
+  }
+
+  TEST_CASE("measures by layers of a body that is gone are of nothing") {
+    Run run =
+        start_input("taylor_copper.yaml",
+                    with({"grid.cell=1.27 mm", "bodies.rod.velocity=[0, -5 km/s]",
+                          "grid.boundary={z_min: open, r_min: axis, r_max: open, z_max: open}"}));
+    Measurements measures{*run.sim};
+    while (run.sim->point_count() > 0 && run.sim->steps() < 1000) {
+      compare_measures(measures, run);
+      run.sim->expect_survey(0);
+      run_steps(run, 4);
+    }
+    REQUIRE(run.sim->point_count() == 0);
+    compare_measures(measures, run);
+    for (const Quantity& q : measures.row(*run.sim, run.sim->survey())) CHECK(std::isnan(q.value));
   }
 }
