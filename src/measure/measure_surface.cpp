@@ -176,15 +176,21 @@ SurfaceMemo::Bounds bounds_of(const BodyPoints& body, const MeasureContext& cont
   return found;
 }
 
+namespace {
+
+bool has_source(const BodyPoints& body) { return body.memo && body.memo->source != nullptr; }
+
+}  // namespace
+
 const BodyPoints& layer_of(const BodyPoints& body, int axis, double low, double high,
                            BodyPoints& own) {
-  if (body.memo && body.memo->source != nullptr) return body.memo->source->between(axis, low, high);
+  if (has_source(body)) return body.memo->source->between(axis, low, high);
   copy_points_between(body, axis, low, high, own);
   return own;
 }
 
 const BodyPoints& all_of(const BodyPoints& body) {
-  return body.memo && body.memo->source != nullptr ? body.memo->source->all() : body;
+  return has_source(body) ? body.memo->source->all() : body;
 }
 
 namespace {
@@ -202,12 +208,15 @@ std::array<double, 2> find_ends(const BodyPoints& body, const MeasureContext& co
   std::array<double, 2> found{};
   std::array<bool, 2> sure{};
   if (all[1] - all[0] > 1.5 * depth) {
+    const auto layer_at = [&](std::size_t side, BodyPoints& own) -> const BodyPoints& {
+      return side == 0 ? layer_of(body, axis, all[0], all[0] + depth, own)
+                       : layer_of(body, axis, all[1] - depth, all[1], own);
+    };
     std::array<BodyPoints, 2> own;
-    const std::array<const BodyPoints*, 2> layers{
-        &layer_of(body, axis, all[0], all[0] + depth, own[0]),
-        &layer_of(body, axis, all[1] - depth, all[1], own[1])};
+    // A source gathers one layer after the other, each on all threads.
+    for (std::size_t side = 0; has_source(body) && side < 2; ++side) layer_at(side, own[side]);
     for_each(2, [&](std::size_t side) {
-      found[side] = volume_fraction(*layers[side], context)
+      found[side] = volume_fraction(layer_at(side, own[side]), context)
                         .outermost(axis, static_cast<int>(side), walls)
                         .of_filled;
       sure[side] = std::abs(found[side] - all[side]) < kSure * a;

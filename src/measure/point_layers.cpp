@@ -58,8 +58,10 @@ bool looks_at_layers(const MeasureOptions& measure) {
   }
 }
 
-bool PointLayers::can_gather(const Simulation& sim, const std::vector<int>& bodies) {
-  return sim.scene().grid.refine.empty() && sim.has_all_points() &&
+bool PointLayers::should_gather(const Simulation& sim, const std::vector<int>& bodies) {
+  std::size_t count = 0;
+  for (const int b : bodies) count += sim.point_count(b);
+  return count > kFew && sim.scene().grid.refine.empty() && sim.has_all_points() &&
          std::all_of(bodies.begin(), bodies.end(),
                      [&](int b) { return sim.bodies()[index(b)]->options().material_points(); });
 }
@@ -68,7 +70,7 @@ void PointLayers::begin(const Simulation& sim, const std::vector<int>& bodies,
                         const std::vector<PointSurvey>& survey) {
   sim_ = &sim;
   sets_.clear();
-  count_ = used_ = 0;
+  used_ = 0;
   for (const int b : bodies) {
     const Body& body = *sim.bodies()[index(b)];
     const Slots slots{body.slot(field::Position::info), body.slot(field::Mass::info),
@@ -76,7 +78,6 @@ void PointLayers::begin(const Simulation& sim, const std::vector<int>& bodies,
     for (int s = 0; s < sim.set_count(); ++s) {
       if (sim.set(s).body != b || sim.set(s).count() == 0) continue;
       sets_.push_back({s, slots, survey[index(s)].bounds});
-      count_ += index(sim.set(s).count());
     }
   }
 }

@@ -17,13 +17,14 @@ bool looks_at_layers(const MeasureOptions& measure);
 
 class PointLayers final : public LayerSource {
  public:
-  /// Bodies of material points among cells of one size: what it can gather.
-  static bool can_gather(const Simulation& sim, const std::vector<int>& bodies);
+  /// Bodies of material points among cells of one size, which are worth it: of fewer points all
+  /// are gathered sooner than other threads wake for each layer.
+  static bool should_gather(const Simulation& sim, const std::vector<int>& bodies);
+  static constexpr std::size_t kFew = 16384;  ///< points
 
   /// For a row: the points have moved. `survey`: of the present state. Both must outlive the row.
   void begin(const Simulation& sim, const std::vector<int>& bodies,
              const std::vector<PointSurvey>& survey);
-  bool empty() const { return count_ == 0; }
   /// Where all points are, and the sparse ones.
   SurfaceMemo::Bounds bounds(const MeasureContext& context);
 
@@ -56,7 +57,7 @@ class PointLayers final : public LayerSource {
 
   const Simulation* sim_ = nullptr;
   std::vector<Set> sets_;
-  std::size_t count_ = 0, used_ = 0;
+  std::size_t used_ = 0;
   std::deque<Layer> layers_;  // references stay valid; memory is kept from row to row
 };
 

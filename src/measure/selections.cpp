@@ -124,7 +124,7 @@ void Selections::begin(Asked asked, const std::vector<PointSurvey>* survey) {
 bool Selections::gathers_layers(const Simulation& sim, const MeasureSelection& selection) const {
   const auto found = layers_.find(selection.bodies);
   return survey_ != nullptr && found != layers_.end() && found->second &&
-         PointLayers::can_gather(sim, selection.bodies);
+         PointLayers::should_gather(sim, selection.bodies);
 }
 
 const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelection& selection) {
@@ -137,13 +137,9 @@ const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelecti
   whole.bodies = selection.bodies;
   kept.points.memo = std::make_shared<SurfaceMemo>();
   if (gathers_layers(sim, selection)) {
-    for (auto* column : {&kept.points.mass, &kept.points.density}) column->clear();
-    kept.points.x.clear();
     kept.layers.begin(sim, selection.bodies, *survey_);
-    if (!kept.layers.empty()) {
-      kept.points.memo->source = &kept.layers;
-      kept.points.memo->bounds = kept.layers.bounds(cells_of(sim, selection.bodies));
-    }
+    kept.points.memo->source = &kept.layers;
+    kept.points.memo->bounds = kept.layers.bounds(cells_of(sim, selection.bodies));
   } else if (selection == whole) {
     gather_points(sim, selection.bodies,
                   (asked_ == Asked::rows ? in_rows_ : needs_)[selection.bodies], kept.points);

@@ -121,8 +121,10 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("measures of points gathered by layers are those of all points") {
-    for (const Overrides& frame : std::vector<Overrides>{
-             {"grid.cell=0.381 mm"}, {"frame=plane_strain"}, {"frame=3d", "grid.cell=0.762 mm"}}) {
+    for (const Overrides& frame :
+         std::vector<Overrides>{{"grid.cell=0.127 mm"},
+                                {"frame=plane_strain", "grid.cell=0.127 mm"},
+                                {"frame=3d", "grid.cell=0.762 mm"}}) {
       CAPTURE(frame.front());
       Run run = start_input("taylor_copper.yaml", with(frame));
       Measurements measures{*run.sim};
@@ -136,19 +138,20 @@ TEST_SUITE("verification") {
   }
 
   TEST_CASE("measures by layers see a sparse point as those of all points do") {
-    Run run = start_input("taylor_copper.yaml", with({"grid.cell=0.381 mm"}));
+    Run run = start_input("taylor_copper.yaml", with({"grid.cell=0.127 mm"}));
     Measurements measures{*run.sim};
     const double dense = measures.now(*run.sim, {0}).front();
     const Body& body = *run.sim->bodies()[0];
     run.sim->set_value(0, 3, body.slot(field::Density::info), 10);
     // between four nodes, none of which it fills by half: no surface is there
-    run.sim->set_value(0, 3, body.slot(field::Position::info, 0), 5.5 * 0.381e-3);
-    run.sim->set_value(0, 3, body.slot(field::Position::info, 1), 68.5 * 0.381e-3);
+    run.sim->set_value(0, 3, body.slot(field::Position::info, 0), 5.5 * 0.127e-3);
+    run.sim->set_value(0, 3, body.slot(field::Position::info, 1), 203.5 * 0.127e-3);
     compare_measures(measures, run);
     CHECK(measures.now(*run.sim, {0}).front() > dense + 0.3e-3);
+    CHECK(run.sim->point_count() > 16384);  // by layers (measure/point_layers.hpp)
   }
 
-  TEST_CASE("measures by layers of a body that is gone are of nothing") {
+  TEST_CASE("measures of a body that leaves are those of all points, in the end of nothing") {
     Run run =
         start_input("taylor_copper.yaml",
                     with({"grid.cell=1.27 mm", "bodies.rod.velocity=[0, -5 km/s]",
