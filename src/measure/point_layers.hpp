@@ -25,6 +25,7 @@ class PointLayers final : public LayerSource {
   /// For a row: the points have moved. `survey`: of the present state. Both must outlive the row.
   void begin(const Simulation& sim, const std::vector<int>& bodies,
              const std::vector<PointSurvey>& survey);
+  void release() { layers_.clear(); }  ///< memory of rows before
   /// Where all points are, and the sparse ones.
   SurfaceMemo::Bounds bounds(const MeasureContext& context);
 

@@ -141,6 +141,7 @@ const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelecti
     kept.points.memo->source = &kept.layers;
     kept.points.memo->bounds = kept.layers.bounds(cells_of(sim, selection.bodies));
   } else if (selection == whole) {
+    kept.layers.release();  // at the end of a run the memory would count twice
     gather_points(sim, selection.bodies,
                   (asked_ == Asked::rows ? in_rows_ : needs_)[selection.bodies], kept.points);
   } else {
