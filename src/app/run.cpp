@@ -60,7 +60,11 @@ class Runner {
   void begin();
   void resume();
   std::vector<Quantity> history_columns();
-  std::vector<Quantity> history_titles() const;  ///< without measuring, which measures remember
+  std::vector<Quantity> history_titles() const {  ///< without measuring, which measures remember
+    std::vector<Quantity> row = history_row(sim_, {});
+    for (Quantity& q : measurements_.titles(scene_)) row.push_back(std::move(q));
+    return row;
+  }
   void write_history() { results_.write_history(history_columns()); }
   void write_due(Schedule& frames, Schedule& history);
   void write_frame(double time);
@@ -146,14 +150,9 @@ std::vector<Quantity> Runner::history_columns() {
   if (looks_at_points(scene_)) sim_.assemble();
   sim_.look_at_elements();
   sim_.look_for_torn_points();
-  std::vector<Quantity> row = history_row(sim_);
-  for (Quantity& q : measurements_.row(sim_)) row.push_back(std::move(q));
-  return row;
-}
-
-std::vector<Quantity> Runner::history_titles() const {
-  std::vector<Quantity> row = history_row(sim_);
-  for (Quantity& q : measurements_.titles(scene_)) row.push_back(std::move(q));
+  const std::vector<PointSurvey> survey = sim_.survey();
+  std::vector<Quantity> row = history_row(sim_, survey);
+  for (Quantity& q : measurements_.row(sim_, survey)) row.push_back(std::move(q));
   return row;
 }
 
@@ -234,6 +233,7 @@ int Runner::go() {
         return finish("interrupted", message, kInterrupted, progress);
       }
       fit.look(sim_);
+      sim_.expect_survey(scene_.output.history > 0 ? history.next() : 0);
       sim_.step(frames.next());
       costs_.look(sim_);
       write_due(frames, history);

@@ -73,22 +73,38 @@ std::optional<double> edge(const Band& band, int side) {
   return std::clamp(place, band.domain[0], band.domain[1]);
 }
 
-/// K of every point for the band about z0 on the last axis.
-std::vector<double> band_weights(const BodyPoints& body, int last, double z0, double b) {
-  std::vector<double> weights(body.count());
-  for (std::size_t p = 0; p < body.count(); ++p)
-    weights[p] = bspline((body.x[p][index(last)] - z0) / b);
-  return weights;
+/// Calls work(p) for all points, some thousands at a time.
+template <class Work>
+void for_points(std::size_t count, const Work& work) {
+  constexpr std::size_t kPart = 2048;
+  for_each((count + kPart - 1) / kPart, [&](std::size_t i) {
+    for (std::size_t p = i * kPart; p < std::min(count, (i + 1) * kPart); ++p) work(p);
+  });
 }
 
+/// Of every point for the band about z0 on the last axis: K, and what it fills of its volume.
+struct BandWeights {
+  std::vector<double> K, filled;
+
+  BandWeights(const BodyPoints& body, const MeasureContext& context, double z0)
+      : K(body.count()), filled(body.count()) {
+    const int last = dimension(context.frame) - 1;
+    const double b = kBand * node_spacing(context);
+    for_points(body.count(), [&](std::size_t p) {
+      K[p] = bspline((body.x[p][index(last)] - z0) / b);
+      filled[p] = filled_volume(body, context, p);
+    });
+  }
+};
+
 /// 3d: the axis of the body at the height of the band.
-double centre(const BodyPoints& body, const MeasureContext& context,
-              const std::vector<double>& weights, int d) {
+double centre(const BodyPoints& body, const MeasureContext& context, const BandWeights& weights,
+              int d) {
   const std::optional<int> side = cut_side(body, context, d);
   if (side) return *side == 0 ? context.min[index(d)] : context.max[index(d)];
   double sum = 0, moment = 0;
   for (std::size_t p = 0; p < body.count(); ++p) {
-    const double filled = weights[p] * filled_volume(body, context, p);
+    const double filled = weights.K[p] * weights.filled[p];
     sum += filled;
     moment += filled * body.x[p][index(d)];
   }
@@ -99,7 +115,7 @@ double centre(const BodyPoints& body, const MeasureContext& context,
 Band round_band(const BodyPoints& body, const MeasureContext& context, double z0) {
   const double a = node_spacing(context), b = kBand * a;
   const int last = dimension(context.frame) - 1;
-  const std::vector<double> weights = band_weights(body, last, z0, b);
+  const BandWeights weights{body, context, z0};
   const bool space = context.frame == Frame::cartesian_3d;
   Triple middle{};
   double share = 1;
@@ -108,16 +124,21 @@ Band round_band(const BodyPoints& body, const MeasureContext& context, double z0
     if (cut_side(body, context, d)) share /= 2;
   }
   Band band;
-  double furthest = 0;
-  for (std::size_t p = 0; p < body.count(); ++p) {
-    if (weights[p] == 0) continue;
+  band.points.resize(body.count());
+  for_points(body.count(), [&](std::size_t p) {
     const Triple& x = body.x[p];
     const double r = space ? std::hypot(x[0] - middle[0], x[1] - middle[1]) : x[0];
-    band.points.push_back({r,
-                           section(filled_volume(body, context, p), r, share, a) * weights[p] / b,
-                           (x[index(last)] - z0) / a});
-    furthest = std::max(furthest, r);
+    band.points[p] = {r, section(weights.filled[p], r, share, a) * weights.K[p] / b,
+                      (x[index(last)] - z0) / a};
+  });
+  std::size_t seen = 0;
+  double furthest = 0;
+  for (std::size_t p = 0; p < body.count(); ++p) {
+    if (weights.K[p] == 0) continue;
+    furthest = std::max(furthest, band.points[p].q);
+    band.points[seen++] = band.points[p];
   }
+  band.points.resize(seen);
   const double lower = space ? 0.0 : context.min[0];
   const bool inner = space || is_symmetry(context, 0, 0);
   band.trusted = space ? 2 : 0;
@@ -131,12 +152,12 @@ Band round_band(const BodyPoints& body, const MeasureContext& context, double z0
 
 Band flat_band(const BodyPoints& body, const MeasureContext& context, double z0) {
   const double a = node_spacing(context), b = kBand * a;
-  const std::vector<double> weights = band_weights(body, 1, z0, b);
+  const BandWeights weights{body, context, z0};
   Band band;
   for (std::size_t p = 0; p < body.count(); ++p) {
-    if (weights[p] == 0) continue;
+    if (weights.K[p] == 0) continue;
     band.points.push_back(
-        {body.x[p][0], filled_volume(body, context, p) * weights[p] / b, (body.x[p][1] - z0) / a});
+        {body.x[p][0], weights.filled[p] * weights.K[p] / b, (body.x[p][1] - z0) / a});
   }
   band.axis = body_axis(body, context, 0);
   band.domain = {context.min[0], context.max[0]};
@@ -147,7 +168,9 @@ Band flat_band(const BodyPoints& body, const MeasureContext& context, double z0)
 BodyPoints points_about(const BodyPoints& body, const MeasureContext& context, double z0) {
   const int dim = dimension(context.frame);
   const double reach = band_reach(context);
-  BodyPoints near = points_between(body, dim - 1, z0 - reach, z0 + reach);
+  BodyPoints own;
+  const BodyPoints& found = layer_of(body, dim - 1, z0 - reach, z0 + reach, own);
+  BodyPoints near = &found == &own ? std::move(own) : found;
   near.memo = std::make_shared<SurfaceMemo>();
   near.memo->bounds.emplace();
   for (int d = 0; d < dim; ++d) near.memo->bounds->all[index(d)] = range(body, d);
@@ -241,9 +264,9 @@ double largest_diameter(const BodyPoints& body, const MeasureContext& context, d
   const int last = dimension(context.frame) - 1;
   const double reach = band_reach(context);
   const bool part = high < top;
-  const BodyPoints lower =
-      part ? points_between(body, last, low - reach, high + reach) : BodyPoints{};
-  const Slices slices{part ? lower : body, context};
+  BodyPoints own;
+  const Slices slices{part ? layer_of(body, last, low - reach, high + reach, own) : all_of(body),
+                      context};
   const double heights = std::max(1.0, std::ceil((high - low) / node_spacing(context)));
   std::vector<double> found(static_cast<std::size_t>(heights) + 1);
   for_each(found.size(), [&](std::size_t i) {

@@ -31,8 +31,11 @@ class Filling {
         a_{node_spacing(context)},
         cell_{a_ * a_ * (context.frame == Frame::cartesian_3d ? a_ : 1)} {}
   double operator()(const BodyPoints& body, std::size_t p) const {
-    const double round = revolved_ ? 2 * std::numbers::pi * std::max(body.x[p][0], 0.2 * a_) : 1.0;
-    return std::min(volume(body, p), cell_ * round);
+    return std::min(volume(body, p), most(body.x[p][0]));
+  }
+  /// At a distance from the axis.
+  double most(double r) const {
+    return cell_ * (revolved_ ? 2 * std::numbers::pi * std::max(r, 0.2 * a_) : 1.0);
   }
 
  private:
@@ -65,8 +68,11 @@ MeasuringAxis body_axis(const BodyPoints& body, const MeasureContext& context, i
                         {is_closed(context, d, 0), is_closed(context, d, 1)}, occupied);
 }
 
-BodyPoints points_between(const BodyPoints& body, int axis, double low, double high) {
-  BodyPoints out;
+void copy_points_between(const BodyPoints& body, int axis, double low, double high,
+                         BodyPoints& out) {
+  out.x.clear();
+  out.mass.clear();
+  out.density.clear();
   for (std::size_t p = 0; p < body.count(); ++p) {
     const double x = body.x[p][index(axis)];
     if (!(x >= low && x <= high)) continue;
@@ -74,7 +80,6 @@ BodyPoints points_between(const BodyPoints& body, int axis, double low, double h
     out.mass.push_back(body.mass[p]);
     out.density.push_back(body.density[p]);
   }
-  return out;
 }
 
 double node_spacing(const MeasureContext& context) {
@@ -84,6 +89,8 @@ double node_spacing(const MeasureContext& context) {
 double filled_volume(const BodyPoints& body, const MeasureContext& context, std::size_t p) {
   return Filling{context}(body, p);
 }
+
+double most_filled(const MeasureContext& context, double r) { return Filling{context}.most(r); }
 
 bool is_closed(const MeasureContext& context, int axis, int side) {
   return context.boundary[index(axis)][index(side)] != BoundaryKind::open;
@@ -151,7 +158,9 @@ Bounds bounds_of(const BodyPoints& body, const Filling& filling, std::size_t fir
   return found;
 }
 
-Bounds bounds_of(const BodyPoints& body, const MeasureContext& context) {
+}  // namespace
+
+SurfaceMemo::Bounds bounds_of(const BodyPoints& body, const MeasureContext& context) {
   constexpr std::size_t kPart = 8192;  // points of one work item
   const Filling filling{context};
   std::vector<Bounds> parts((body.count() + kPart - 1) / kPart);
@@ -167,23 +176,57 @@ Bounds bounds_of(const BodyPoints& body, const MeasureContext& context) {
   return found;
 }
 
+namespace {
+
+bool has_source(const BodyPoints& body) { return body.memo && body.memo->source != nullptr; }
+
+}  // namespace
+
+const BodyPoints& layer_of(const BodyPoints& body, int axis, double low, double high,
+                           BodyPoints& own) {
+  if (has_source(body)) return body.memo->source->between(axis, low, high);
+  copy_points_between(body, axis, low, high, own);
+  return own;
+}
+
+const BodyPoints& all_of(const BodyPoints& body) {
+  return has_source(body) ? body.memo->source->all() : body;
+}
+
+namespace {
+
 /// The outermost surface is looked for among the points at the end first, in a layer of kLayer a,
 /// and believed if a well filled line has it within kSure a of the outermost point: what lies
 /// kInside nodes deeper does not touch it then (volume_fraction.cpp).
 constexpr double kLayer = 14, kSure = 4;
 
-double surface_end(const BodyPoints& body, const MeasureContext& context, const Bounds& points,
-                   int axis, int side) {
+/// `all`: least and greatest coordinate of the points along the axis.
+std::array<double, 2> find_ends(const BodyPoints& body, const MeasureContext& context, int axis,
+                                const std::array<double, 2>& all) {
   const VolumeFraction::Walls walls = walls_of(context);
-  const std::array<double, 2> all = points.all[index(axis)];
-  const double depth = kLayer * node_spacing(context), last = all[index(side)];
+  const double a = node_spacing(context), depth = kLayer * a;
+  std::array<double, 2> found{};
+  std::array<bool, 2> sure{};
   if (all[1] - all[0] > 1.5 * depth) {
-    const BodyPoints layer = side == 1 ? points_between(body, axis, last - depth, last)
-                                       : points_between(body, axis, last, last + depth);
-    const double found = volume_fraction(layer, context).outermost(axis, side, walls).of_filled;
-    if (std::abs(found - last) < kSure * node_spacing(context)) return found;
+    const auto layer_at = [&](std::size_t side, BodyPoints& own) -> const BodyPoints& {
+      return side == 0 ? layer_of(body, axis, all[0], all[0] + depth, own)
+                       : layer_of(body, axis, all[1] - depth, all[1], own);
+    };
+    std::array<BodyPoints, 2> own;
+    // A source gathers one layer after the other, each on all threads.
+    for (std::size_t side = 0; has_source(body) && side < 2; ++side) layer_at(side, own[side]);
+    for_each(2, [&](std::size_t side) {
+      found[side] = volume_fraction(layer_at(side, own[side]), context)
+                        .outermost(axis, static_cast<int>(side), walls)
+                        .of_filled;
+      sure[side] = std::abs(found[side] - all[side]) < kSure * a;
+    });
   }
-  return volume_fraction(body, context).outermost(axis, side, walls).place();
+  if (sure[0] && sure[1]) return found;
+  const VolumeFraction whole = volume_fraction(all_of(body), context);
+  for (const int side : {0, 1})
+    if (!sure[index(side)]) found[index(side)] = whole.outermost(axis, side, walls).place();
+  return found;
 }
 
 }  // namespace
@@ -199,12 +242,9 @@ std::array<double, 2> surface_ends(const BodyPoints& body, const MeasureContext&
     return *kept;
   }
   if (!memo.bounds) memo.bounds = bounds_of(body, context);
-  std::array<double, 2> at{};
-  for_each(2, [&](std::size_t side) {
-    at[side] = surface_end(body, context, *memo.bounds, axis, static_cast<int>(side));
-  });
   const std::array<double, 2> all = memo.bounds->all[index(axis)],
                               sparse = memo.bounds->sparse[index(axis)];
+  std::array<double, 2> at = find_ends(body, context, axis, all);
   if (std::isfinite(sparse[0])) at = {std::fmin(at[0], sparse[0]), std::fmax(at[1], sparse[1])};
   const double a = node_spacing(context);
   kept = {std::max({at[0], all[0] - a, context.min[index(axis)]}),

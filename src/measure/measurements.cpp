@@ -176,7 +176,7 @@ Measurements::Measurements(const Simulation& sim) : selections_{sim.scene()} {
 }
 
 void Measurements::check(const Simulation& sim) const {
-  const std::vector<Quantity> columns = history_row(sim);
+  const std::vector<Quantity> columns = history_row(sim, {});
   for (const MeasureOptions& m : sim.scene().measures)
     for (const Quantity& column : columns)
       if (m.in_history && column.name == m.name)
@@ -204,10 +204,12 @@ std::vector<double> Measurements::now(const Simulation& sim, const std::vector<i
 }
 
 /// None of a broken state: its positions may be anything.
-std::vector<double> Measurements::values(const Simulation& sim, bool all) {
+std::vector<double> Measurements::values(const Simulation& sim,
+                                         const std::vector<PointSurvey>* survey) {
   std::vector<double> out(start_.size(), kNothing);
   if (sim.broken()) return out;
-  selections_.begin(all ? Selections::Asked::all : Selections::Asked::rows);
+  const bool all = survey == nullptr;
+  selections_.begin(all ? Selections::Asked::all : Selections::Asked::rows, survey);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const MeasureOptions& m = sim.scene().measures[i];
     if (!all && !in_row(m)) continue;
@@ -223,8 +225,9 @@ std::vector<Quantity> Measurements::titles(const Scene& scene) const {
   return columns;
 }
 
-std::vector<Quantity> Measurements::row(const Simulation& sim) {
-  const std::vector<double> now = values(sim, false);
+std::vector<Quantity> Measurements::row(const Simulation& sim,
+                                        const std::vector<PointSurvey>& survey) {
+  const std::vector<double> now = values(sim, &survey);
   std::vector<Quantity> columns = titles(sim.scene());
   std::size_t column = 0;
   for (std::size_t i = 0; i < now.size(); ++i)
@@ -234,7 +237,7 @@ std::vector<Quantity> Measurements::row(const Simulation& sim) {
 
 void Measurements::summarize(const Simulation& sim, Json& summary) {
   const Scene& scene = sim.scene();
-  const std::vector<double> now = values(sim, true);
+  const std::vector<double> now = values(sim, nullptr);
   Json measures, fragments;
   nothing_.clear();
   for (std::size_t i = 0; i < now.size(); ++i) {

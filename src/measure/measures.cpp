@@ -255,7 +255,7 @@ double face_position(const MeasureOptions& measure, const BodyPoints& points,
 double evaluate(const MeasureOptions& measure, const BodyPoints& points,
                 const MeasureContext& context, const MeasureStart& start) {
   const Evaluator& evaluator = kEvaluators[static_cast<std::size_t>(measure.kind)];
-  if (points.count() == 0 && !evaluator.sums) return kNothing;
+  if (points.empty() && !evaluator.sums) return kNothing;
   return evaluator.evaluate(measure, points, context, start);
 }
 

@@ -2,6 +2,8 @@
 // The points that the measures of a scene look at, with what they look at of them.
 #include "measure/selections.hpp"
 
+#include "measure/point_layers.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -91,33 +93,61 @@ bool in_row(const MeasureOptions& measure) {
   return measure.in_history || measure.keep != Keep::now || looks_back(measure.kind);
 }
 
+struct Selections::Kept {
+  MeasureSelection selection{};
+  BodyPoints points{};
+  bool now = false;  ///< selected since the beginning
+  PointLayers layers{};
+};
+
+Selections::~Selections() = default;
+
 Selections::Selections(const Scene& scene) {
   for (const MeasureOptions& m : scene.measures) {
     const std::vector<int>& bodies = m.selection.bodies;
     needs_[bodies].surface = in_rows_[bodies].surface = needs_surface(scene, bodies);
     add_needs(m, needs_[bodies]);
-    if (in_row(m)) add_needs(m, in_rows_[bodies]);
+    if (!in_row(m)) continue;
+    add_needs(m, in_rows_[bodies]);
+    bool& layers = layers_.try_emplace(bodies, true).first->second;
+    layers = layers && looks_at_layers(m);
   }
 }
 
-void Selections::begin(Asked asked) {
+void Selections::begin(Asked asked, const std::vector<PointSurvey>* survey) {
   asked_ = asked;
+  survey_ = survey;
   for (Kept& kept : kept_) kept.now = false;
+}
+
+/// Of these bodies the rows ask for nothing else.
+bool Selections::gathers_layers(const Simulation& sim, const MeasureSelection& selection) const {
+  const auto found = layers_.find(selection.bodies);
+  return survey_ != nullptr && found != layers_.end() && found->second &&
+         PointLayers::should_gather(sim, selection.bodies);
 }
 
 const BodyPoints& Selections::points(const Simulation& sim, const MeasureSelection& selection) {
   auto at = std::find_if(kept_.begin(), kept_.end(),
                          [&](const Kept& kept) { return kept.selection == selection; });
-  Kept& kept = at != kept_.end() ? *at : kept_.emplace_back(Kept{selection, {}, false});
+  Kept& kept = at != kept_.end() ? *at : kept_.emplace_back();
   if (kept.now) return kept.points;
+  kept.selection = selection;
   MeasureSelection whole;
   whole.bodies = selection.bodies;
-  if (selection == whole)
+  kept.points.memo = std::make_shared<SurfaceMemo>();
+  if (gathers_layers(sim, selection)) {
+    kept.layers.begin(sim, selection.bodies, *survey_);
+    kept.points.memo->source = &kept.layers;
+    kept.points.memo->bounds = kept.layers.bounds(cells_of(sim, selection.bodies));
+  } else if (selection == whole) {
+    kept.layers.release();  // at the end of a run the memory would count twice
     gather_points(sim, selection.bodies,
                   (asked_ == Asked::rows ? in_rows_ : needs_)[selection.bodies], kept.points);
-  else
+  } else {
     kept.points = select(selection, points(sim, whole), cells_of(sim, selection.bodies));
-  kept.points.memo = std::make_shared<SurfaceMemo>();
+    kept.points.memo = std::make_shared<SurfaceMemo>();
+  }
   kept.now = true;
   return kept.points;
 }

@@ -117,9 +117,9 @@ void add_points(const Simulation& sim, std::vector<Quantity>& row) {
 
 }  // namespace
 
-std::vector<Quantity> history_row(const Simulation& sim) {
+std::vector<Quantity> history_row(const Simulation& sim, const std::vector<PointSurvey>& survey) {
   const Audit& a = sim.audit();
-  const std::vector<Totals> bodies = sim.totals_by_body();
+  const std::vector<Totals> bodies = sim.totals_by_body(survey);
   Totals t;
   for (const Totals& body : bodies) t += body;
   std::vector<Quantity> row;

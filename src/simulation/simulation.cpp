@@ -262,6 +262,7 @@ void Simulation::advance(double until) {
   if (sph_) sph_->set_time(time());
   const Triple on_points = scene_.body_force ? apply_body_force() : Triple{};
   const std::array<double, 3> wall_force = apply_point_walls(asked);
+  look_in_step(asked);
   double taken = 0;
   try {
     taken = take_step(movers_, asked, encounter_.get());
@@ -298,6 +299,9 @@ void Simulation::advance(double until) {
 
 /// Blocks of cells to the rules of the scene, points to the cells.
 void Simulation::fit_points() {
+  if (refinement_ || scene_.grid.merge ||
+      scene_.method.numerical_fracture == NumericalFracture::split)
+    seen_.clear();
   if (refinement_ && refinement_->moves()) step_->regrid(refinement_->find(grid_, ranks_.get()));
   if (scene_.method.numerical_fracture == NumericalFracture::split) step_->split_stretched();
   if (scene_.grid.merge) step_->merge();

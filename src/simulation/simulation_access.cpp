@@ -63,6 +63,7 @@ double Simulation::bytes_per_point() const {
 }
 
 void Simulation::set_value(int s, int point, int slot, double x) {
+  seen_.clear();
   change(s).at(kLanes * slot, point) = x;
 }
 

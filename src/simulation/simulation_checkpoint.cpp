@@ -256,6 +256,7 @@ void Simulation::restore_here(const Checkpoint& checkpoint) {
     throw InputError(
         "checkpoint: it belongs to a scene with another frame, grid.cell or grid.box; restart with "
         "the scene and the --set options it was written with");
+  seen_.clear();
   const auto& clock = demand(checkpoint, "clock").doubles;
   clock_.restore(clock.at(0), clock.at(1), clock.at(2),
                  demand(checkpoint, "counters").integers.at(0));

@@ -82,6 +82,7 @@ void Simulation::follow(const std::function<Checkpoint()>& checkpoint) {
       together([&] {
         switch (told.order) {
           case Order::step:
+            expect_survey(told.b);
             return advance(told.a);
           case Order::survey:
             return survey_together();
@@ -141,7 +142,7 @@ void Simulation::survey_together() const {
   if (surveyed_ == steps()) return;
   if (together_ && ranks::first()) tell(Order::survey);
   survey_.assign(static_cast<std::size_t>(set_count()), {});
-  for_each(survey_.size(), [&](std::size_t s) { survey_[s] = totals_of_set(static_cast<int>(s)); });
+  for_each(survey_.size(), [&](std::size_t s) { survey_[s] = survey_of_set(static_cast<int>(s)); });
   ranks_->share(grid_, survey_);
   surveyed_ = steps();
 }
@@ -151,7 +152,7 @@ void Simulation::step(double until) {
     advance(until);
     return;
   }
-  tell(Order::step, until);
+  tell(Order::step, until, survey_due_);
   together([&] { advance(until); });
 }
 

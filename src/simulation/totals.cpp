@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Totals over the points for every row of history: a lane group at a time, for each of its columns
-// is a line of the cache. The padding has no mass (points/store.hpp) and adds nothing.
+// What rows of history ask of all points: a lane group at a time, for each of its columns is a line
+// of the cache. The padding has no mass (points/store.hpp), adds nothing, and lies on a point.
 #include <Eigen/Core>
+
+#include <algorithm>
 
 #include "krater/core/parallel.hpp"
 #include "krater/grid/support.hpp"
@@ -43,6 +45,103 @@ Lanes affine_spin(const GroupColumns& p, const PointColumns& c, int dim) {
   return spin;
 }
 
+/// What the elastic energy of the deviator is made of.
+struct DeviatorColumns {
+  int stress = -1, mass = -1, density = -1, damage = -1;
+  double shear_modulus = 0;
+
+  explicit DeviatorColumns(const Body& body)
+      : stress{kLanes * body.slot(field::DeviatoricStress::info)},
+        mass{kLanes * body.slot(field::Mass::info)},
+        density{kLanes * body.slot(field::Density::info)},
+        damage{body.degrades() ? kLanes * body.slot(field::Damage::info) : -1},
+        shear_modulus{body.material().shear_modulus} {}
+  bool any() const { return stress >= 0 && shear_modulus > 0; }
+  /// Over 4 G. `volume`: of the points.
+  Lanes energy(const GroupColumns& p, const Lanes& volume) const {
+    Lanes square = Lanes::Zero();
+    for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * p[stress + kLanes * k].square();
+    square *= volume;
+    return damage < 0 ? square : Lanes{square / (1 - p[damage])};
+  }
+};
+
+/// The sums of a patch by lane.
+class PatchSums {
+ public:
+  PatchSums(const PointColumns& columns, const DeviatorColumns& deviator, int dimension,
+            double moment)
+      : c_{columns}, deviator_{deviator}, dim_{dimension}, moment_{moment} {
+    momentum_.fill(Lanes::Zero());
+    low_.fill(Lanes::Constant(PointBounds::kNowhere));
+    high_.fill(Lanes::Constant(-PointBounds::kNowhere));
+  }
+  void add(const GroupColumns& p) {
+    add_motion(p);
+    if (c_.energy >= 0) internal_ += p[c_.mass] * p[c_.energy];
+    if (c_.carried >= 0) internal_ += p[c_.mass] * p[c_.carried];
+    const Lanes volume = p[c_.mass] / p[deviator_.density];
+    volume_ = volume_.max(volume);
+    if (deviator_.any()) deviatoric_ += deviator_.energy(p, volume);
+    for (int a = 0; a < dim_; ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      low_[k] = low_[k].min(p[c_.position + kLanes * a]);
+      high_[k] = high_[k].max(p[c_.position + kLanes * a]);
+    }
+  }
+  PointSurvey survey() const;
+
+ private:
+  void add_motion(const GroupColumns& p) {
+    const Lanes m = p[c_.mass];
+    mass_ += m;
+    Lanes square = Lanes::Zero();
+    for (int a = 0; a < dim_; ++a) {
+      const Lanes v = p[c_.velocity + kLanes * a];
+      square += v * v;
+      momentum_[static_cast<std::size_t>(a)] += m * v;
+    }
+    spin_ +=
+        m * (p[c_.position] * p[c_.velocity + kLanes] - p[c_.position + kLanes] * p[c_.velocity]);
+    if (c_.affine >= 0) {
+      Lanes affine = Lanes::Zero();
+      for (int k = 0; k < dim_ * dim_; ++k) affine += p[c_.affine + kLanes * k].square();
+      square += moment_ * affine;
+      spin_ += moment_ * m * affine_spin(p, c_, dim_);
+    }
+    twice_ += m * square;
+  }
+
+  const PointColumns& c_;
+  const DeviatorColumns& deviator_;
+  int dim_;
+  double moment_;
+  Lanes mass_ = Lanes::Zero(), twice_ = mass_, internal_ = mass_, spin_ = mass_,
+        deviatoric_ = mass_, volume_ = mass_;
+  std::array<Lanes, 3> momentum_, low_, high_;
+};
+
+PointSurvey PatchSums::survey() const {
+  PointSurvey out;
+  out.totals.mass = mass_.sum();
+  out.totals.kinetic = 0.5 * twice_.sum();
+  out.totals.internal = internal_.sum();
+  out.totals.angular_momentum = spin_.sum();
+  if (deviator_.any()) out.totals.deviatoric = deviatoric_.sum() / (4 * deviator_.shear_modulus);
+  for (int a = 0; a < dim_; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    out.totals.momentum[k] = momentum_[k].sum();
+    out.bounds.low[k] = low_[k].minCoeff();
+    out.bounds.high[k] = high_[k].maxCoeff();
+  }
+  out.bounds.greatest_volume = volume_.maxCoeff();
+  return out;
+}
+
+bool before(const BlockKey& a, int body_of_a, const BlockKey& b, int body_of_b) {
+  return a != b ? a < b : body_of_a < body_of_b;
+}
+
 }  // namespace
 
 Totals& Totals::operator+=(const Totals& other) {
@@ -56,90 +155,84 @@ Totals& Totals::operator+=(const Totals& other) {
   return *this;
 }
 
-Totals Simulation::totals_of_set(int s) const {
-  Totals t = s < mesh_sets()      ? totals_of_mesh(s)
-             : s < first_points() ? totals_of_particles(s)
-                                  : totals_of_patch(s);
-  t.deviatoric = deviatoric_energy_of_set(s);
-  return t;
-}
-
-Totals Simulation::totals_of_patch(int s) const {
-  const Patch& patch = grid_.patches()[static_cast<std::size_t>(s - first_points())];
-  const PointColumns& c = kernel_data_[static_cast<std::size_t>(patch.body)].columns;
-  const double h = geometry_of(s).h, moment = Support::moment * h * h;
-  const int dim = geometry_.dimension;
-  Lanes mass = Lanes::Zero(), twice = mass, internal = mass, spin = mass;
-  std::array<Lanes, 3> momentum{mass, mass, mass};
-  for (int g = 0; g < patch.points.groups(); ++g) {
-    const GroupColumns p{patch.points, g};
-    const Lanes m = p[c.mass];
-    mass += m;
-    Lanes square = Lanes::Zero();
-    for (int a = 0; a < dim; ++a) {
-      const Lanes v = p[c.velocity + kLanes * a];
-      square += v * v;
-      momentum[static_cast<std::size_t>(a)] += m * v;
-    }
-    if (c.energy >= 0) internal += m * p[c.energy];
-    if (c.carried >= 0) internal += m * p[c.carried];
-    spin += m * (p[c.position] * p[c.velocity + kLanes] - p[c.position + kLanes] * p[c.velocity]);
-    if (c.affine >= 0) {
-      Lanes affine = Lanes::Zero();
-      for (int k = 0; k < dim * dim; ++k) affine += p[c.affine + kLanes * k].square();
-      square += moment * affine;
-      spin += moment * m * affine_spin(p, c, dim);
-    }
-    twice += m * square;
+PointSurvey Simulation::survey_of_set(int s) const {
+  if (s >= first_points()) {
+    const auto patch = static_cast<std::size_t>(s - first_points());
+    const PointSurvey* seen = seen_in_step(patch);
+    return seen != nullptr ? *seen : survey_of_patch(patch);
   }
-  Totals t;
-  t.count = patch.points.count();
-  t.mass = mass.sum();
-  t.kinetic = 0.5 * twice.sum();
-  t.internal = internal.sum();
-  for (int a = 0; a < dim; ++a)
-    t.momentum[static_cast<std::size_t>(a)] = momentum[static_cast<std::size_t>(a)].sum();
-  t.angular_momentum = spin.sum();
-  return t;
-}
-
-/// Elastic energy of the deviator, sum m s:s/(4 G (1 - phi) rho) [J].
-double Simulation::deviatoric_energy_of_set(int s) const {
-  const PointSet points = set(s);
-  const Body& body = *bodies_[static_cast<std::size_t>(points.body)];
-  const int dev = kLanes * body.slot(field::DeviatoricStress::info),
-            m = kLanes * body.slot(field::Mass::info),
-            rho = kLanes * body.slot(field::Density::info),
-            phi = body.degrades() ? kLanes * body.slot(field::Damage::info) : -1;
-  const double G = body.material().shear_modulus;
-  if (dev < 0 || G <= 0) return 0;
+  PointSurvey out;
+  out.totals = s < mesh_sets() ? totals_of_mesh(s) : totals_of_particles(s);
+  const PointStore& points = *set(s).points;
+  const DeviatorColumns deviator{*bodies_[static_cast<std::size_t>(set(s).body)]};
+  if (!deviator.any()) return out;
   Lanes sum = Lanes::Zero();
-  for (int g = 0; g < points.points->groups(); ++g) {
-    const GroupColumns p{*points.points, g};
-    Lanes square = Lanes::Zero();
-    for (int k = 0; k < 6; ++k) square += (k < 3 ? 1 : 2) * p[dev + kLanes * k].square();
-    square *= p[m] / p[rho];
-    sum += phi < 0 ? square : Lanes{square / (1 - p[phi])};
+  for (int g = 0; g < points.groups(); ++g) {
+    const GroupColumns p{points, g};
+    sum += deviator.energy(p, p[deviator.mass] / p[deviator.density]);
   }
-  return sum.sum() / (4 * G);
+  out.totals.deviatoric = sum.sum() / (4 * deviator.shear_modulus);
+  return out;
 }
 
-/// Of all sets, in their order.
-std::vector<Totals> Simulation::totals_by_set() const {
+PointSurvey Simulation::survey_of_patch(std::size_t p) const {
+  const Patch& patch = grid_.patches()[p];
+  const auto body = static_cast<std::size_t>(patch.body);
+  const double h = grid_.geometry(patch.key.level).h;
+  const DeviatorColumns deviator{*bodies_[body]};
+  PatchSums sums{kernel_data_[body].columns, deviator, geometry_.dimension,
+                 Support::moment * h * h};
+  for (int g = 0; g < patch.points.groups(); ++g) sums.add({patch.points, g});
+  PointSurvey out = sums.survey();
+  out.totals.count = patch.points.count();
+  return out;
+}
+
+// Points are read from memory once a step (kinematics/mpm/mpm_step_patches.cpp): the walk for a row
+// of history follows the sweep of a patch while its points are in the cache. It holds while the
+// patch has as many points: who left is out before, and who comes later is one more. Whoever
+// changes points at their place, or takes some and adds others, clears all that was seen.
+void Simulation::look_in_step(double dt) {
+  if (!(time() + dt >= survey_due_ - 1e-3 * dt)) {
+    step_->set_look({});
+    return;
+  }
+  seen_.resize(grid_.patches().size());
+  for (std::size_t p = 0; p < seen_.size(); ++p)
+    seen_[p] = {grid_.patches()[p].key, grid_.patches()[p].body, -1, {}};
+  step_->set_look([this, step = steps() + 1](std::size_t p) {
+    seen_[p].found = survey_of_patch(p);
+    seen_[p].step = step;
+  });
+}
+
+/// By the patch's key: the step may have made patches and dropped others since.
+const PointSurvey* Simulation::seen_in_step(std::size_t p) const {
+  const Patch& patch = grid_.patches()[p];
+  if (!patch.here) return nullptr;
+  const auto at = std::lower_bound(
+      seen_.begin(), seen_.end(), patch, [](const SeenPatch& seen, const Patch& looked_for) {
+        return before(seen.key, seen.body, looked_for.key, looked_for.body);
+      });
+  if (at == seen_.end() || at->key != patch.key || at->body != patch.body) return nullptr;
+  const bool holds = at->step == steps() && at->found.totals.count == patch.points.count();
+  return holds ? &at->found : nullptr;
+}
+
+std::vector<PointSurvey> Simulation::survey() const {
   if (ranks_ && !assembled_) {
     survey_together();
     return survey_;
   }
-  std::vector<Totals> out(static_cast<std::size_t>(set_count()));
-  for_each(out.size(), [&](std::size_t s) { out[s] = totals_of_set(static_cast<int>(s)); });
+  std::vector<PointSurvey> out(static_cast<std::size_t>(set_count()));
+  for_each(out.size(), [&](std::size_t s) { out[s] = survey_of_set(static_cast<int>(s)); });
   return out;
 }
 
-std::vector<Totals> Simulation::totals_by_body() const {
-  const std::vector<Totals> sets = totals_by_set();
+std::vector<Totals> Simulation::totals_by_body(const std::vector<PointSurvey>& sets) const {
   std::vector<Totals> out(bodies_.size());
   for (std::size_t s = 0; s < sets.size(); ++s)
-    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sets[s];
+    out[static_cast<std::size_t>(set(static_cast<int>(s)).body)] += sets[s].totals;
   return out;
 }
 

@@ -52,17 +52,22 @@ class Selections {
   enum class Asked { all, rows };
 
   explicit Selections(const Scene& scene);
-  void begin(Asked asked);  ///< the points have moved: what was selected is memory only
+  Selections(const Selections&) = delete;
+  Selections& operator=(const Selections&) = delete;
+  ~Selections();
+  /// The points have moved: what was selected is memory only. `survey`: of all sets now, for a row;
+  /// null: none was made.
+  void begin(Asked asked, const std::vector<PointSurvey>* survey = nullptr);
   const BodyPoints& points(const Simulation& sim, const MeasureSelection& selection);
 
  private:
-  struct Kept {
-    MeasureSelection selection;
-    BodyPoints points;
-    bool now = false;  ///< selected since the beginning
-  };
+  struct Kept;
+  bool gathers_layers(const Simulation& sim, const MeasureSelection& selection) const;
+
   std::map<std::vector<int>, GatherNeeds> needs_, in_rows_;  ///< by the bodies of a selection
+  std::map<std::vector<int>, bool> layers_;  ///< the rows look at layers of these bodies only
   Asked asked_ = Asked::all;
+  const std::vector<PointSurvey>* survey_ = nullptr;
   std::deque<Kept> kept_;  // references stay valid
 };
 
@@ -86,8 +91,8 @@ class Measurements {
   /// Measures by their numbers, without what they remember: of deceleration the mean velocity, of
   /// force the impulse.
   std::vector<double> now(const Simulation& sim, const std::vector<int>& measures);
-  /// Columns of the next row of history. Remembers it.
-  std::vector<Quantity> row(const Simulation& sim);
+  /// Columns of the next row of history. Remembers it. `survey`: of the points as they are.
+  std::vector<Quantity> row(const Simulation& sim, const std::vector<PointSurvey>& survey);
   /// "measures": value, unit, definition, reference and difference; "fragments": lists of pieces.
   void summarize(const Simulation& sim, Json& summary);
 
@@ -100,7 +105,8 @@ class Measurements {
                const std::vector<std::string>& changed);
 
  private:
-  std::vector<double> values(const Simulation& sim, bool all);
+  /// `survey`: of those in rows; null: of all measures.
+  std::vector<double> values(const Simulation& sim, const std::vector<PointSurvey>* survey);
   double sample(const Simulation& sim, std::size_t i);  ///< now, without what is remembered
 
   Selections selections_;

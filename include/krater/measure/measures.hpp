@@ -71,6 +71,21 @@
 
 namespace krater {
 
+struct BodyPoints;
+
+/// Points that are gathered when a measure asks for them. What is handed out stays for a row.
+class LayerSource {
+ public:
+  LayerSource() = default;
+  LayerSource(const LayerSource&) = delete;
+  LayerSource& operator=(const LayerSource&) = delete;
+  virtual ~LayerSource() = default;
+  /// Places, masses and densities of the points from `low` to `high` along an axis, in the order of
+  /// all.
+  virtual const BodyPoints& between(int axis, double low, double high) = 0;
+  virtual const BodyPoints& all() = 0;
+};
+
 /// What the measures of one row share: each costs a pass over all points.
 struct SurfaceMemo {
   /// Least and greatest coordinates of the points: of all, of those that stand for more than a cell
@@ -80,6 +95,7 @@ struct SurfaceMemo {
   };
   std::optional<Bounds> bounds;
   std::array<std::optional<std::array<double, 2>>, 3> ends;  ///< [axis][0 lowest, 1 highest] [m]
+  LayerSource* source = nullptr;  ///< has all the points, and `bounds` is known; null: none has
 };
 
 /// The points of one or several bodies; vectors along the grid axes, masses as in field::Mass.
@@ -97,6 +113,7 @@ struct BodyPoints {
   std::shared_ptr<SurfaceMemo> memo;
 
   std::size_t count() const { return x.size(); }
+  bool empty() const { return x.empty() && !(memo && memo->source != nullptr); }
   int body_of(std::size_t p) const { return body.empty() ? 0 : body[p]; }
   bool is_rubble(std::size_t p) const { return !rubble.empty() && rubble[p] != 0; }
 };

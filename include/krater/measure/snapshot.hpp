@@ -12,7 +12,10 @@ namespace krater {
 OutputFrame make_frame(const Simulation& sim, int number);
 
 /// Energies, work, momentum, events and bodies at this moment.
-std::vector<Quantity> history_row(const Simulation& sim);
+std::vector<Quantity> history_row(const Simulation& sim, const std::vector<PointSurvey>& survey);
+inline std::vector<Quantity> history_row(const Simulation& sim) {
+  return history_row(sim, sim.survey());
+}
 
 /// The audit (theory 11) as JSON.
 Json audit_json(const Simulation& sim);

@@ -5,6 +5,7 @@
 /// time-step control. Knows nothing of files; what it hands out are the plain structs of
 /// output/results.hpp.
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,20 +22,10 @@
 #include "krater/simulation/detonation.hpp"
 #include "krater/simulation/refinement.hpp"
 #include "krater/simulation/torn_points.hpp"
+#include "krater/simulation/totals.hpp"
 #include "krater/simulation/warnings.hpp"
 
 namespace krater {
-
-/// Totals over the points, by a walk over the columns that knows nothing of the step.
-struct Totals {
-  double count = 0, mass = 0, kinetic = 0, internal = 0;
-  std::array<double, 3> momentum{};
-  double angular_momentum =
-      0;  ///< about the origin, out of plane in 2D frames, about z in 3d; affine part included
-  double deviatoric = 0;  ///< elastic energy of the deviator [J]
-
-  Totals& operator+=(const Totals& other);
-};
 
 /// Points side by side, each with the level of the cells about it.
 struct BroughtPoints {
@@ -66,6 +57,9 @@ class Simulation {
   bool done() const { return time() >= scene_.time.end; }
   /// Take one step, not past `until` [s]. Throws NumericalError.
   void step(double until);
+  /// A survey will be asked for after the first step that ends at `time` or later [s]: it costs
+  /// less then.
+  void expect_survey(double time) { survey_due_ = time; }
   /// Where several ranks compute the scene (distribute/distribution.hpp), each has its share of the
   /// points from the start; here they begin together, when all are ready. Throws InputError, on all
   /// of them. All that follows is for the first to call, but follow().
@@ -118,7 +112,10 @@ class Simulation {
   const Warnings& warnings() const { return warnings_; }
   Warnings& warnings() { return warnings_; }
   const GridGeometry& geometry() const { return geometry_; }
-  std::vector<Totals> totals_by_body() const;
+  /// Of all sets, in their order.
+  std::vector<PointSurvey> survey() const;
+  std::vector<Totals> totals_by_body() const { return totals_by_body(survey()); }
+  std::vector<Totals> totals_by_body(const std::vector<PointSurvey>& sets) const;
   Totals totals() const;  ///< of all bodies
   Totals totals(int body) const { return totals_by_body()[static_cast<std::size_t>(body)]; }
 
@@ -192,16 +189,16 @@ class Simulation {
   void resize_mesh(int body, const Checkpoint& checkpoint, std::uint64_t points);
   void restore_mesh(int body, const Checkpoint& checkpoint);
   std::unique_ptr<NodeLoads> make_loads();
-  Totals totals_of_set(int s) const;
-  Totals totals_of_patch(int s) const;
-  double deviatoric_energy_of_set(int s) const;
+  PointSurvey survey_of_set(int s) const;
+  PointSurvey survey_of_patch(std::size_t patch) const;
+  const PointSurvey* seen_in_step(std::size_t patch) const;
+  void look_in_step(double dt);
   int count_of(int s) const;  ///< points of a set, on whatever rank
   void copy_column(int body, int slot, double* to) const;
   void column_together(int body, int slot, double* to) const;
   void open_slabs_together(int body) const;
   std::vector<double> records_of_slab(std::size_t first, std::size_t end) const;
   void slab_together(std::size_t first, std::size_t end) const;
-  std::vector<Totals> totals_by_set() const;
   void survey_together() const;
   void save_levels(Checkpoint& out) const;
   void restore_levels(const Checkpoint& checkpoint);
@@ -252,10 +249,19 @@ class Simulation {
   std::unique_ptr<Distribution> ranks_;  ///< null: one rank has all
   struct Slabs;  ///< points of one body by their ids, where ranks write together
   mutable std::unique_ptr<Slabs> slabs_;
-  mutable std::vector<Totals> survey_;  ///< where points are elsewhere ...
-  mutable std::int64_t surveyed_ = -1;  ///< ... and of which step
-  bool together_ = false;               ///< the ranks have begun
-  bool assembled_ = false;              ///< points of other ranks are on the first, too
+  mutable std::vector<PointSurvey> survey_;  ///< where points are elsewhere ...
+  mutable std::int64_t surveyed_ = -1;       ///< ... and of which step
+  /// What a patch was found to be in the sweep of a step.
+  struct SeenPatch {
+    BlockKey key;
+    int body;
+    std::int64_t step;  ///< -1: in none
+    PointSurvey found;
+  };
+  std::vector<SeenPatch> seen_;  ///< of the last step that a survey was to follow
+  double survey_due_ = std::numeric_limits<double>::infinity();  ///< [s]
+  bool together_ = false;                                        ///< the ranks have begun
+  bool assembled_ = false;  ///< points of other ranks are on the first, too
   std::unique_ptr<MpmStep> step_;
   std::unique_ptr<MeshKernels> mesh_kernels_;
   std::unique_ptr<MeshStep> mesh_;

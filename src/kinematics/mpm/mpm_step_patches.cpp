@@ -95,6 +95,9 @@ void MpmStep::gather_and_collect(std::size_t p, GatherPart part, const SweepSett
   const bool steady = patch.steady;
   patch.steady = patch.points.count() == before;
   if (then.scatters && steady && patch.steady) scatter_ahead(patch, s, w);
+  if (!then.scatters || !look_) return;
+  patch.points.pad(bodies_[static_cast<unsigned>(patch.body)].columns.mass);
+  look_(p);
 }
 
 /// Some patch of this rank could not be scattered.

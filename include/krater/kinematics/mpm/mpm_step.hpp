@@ -8,6 +8,7 @@
 /// the projection. usf: stress from v- first, of the motion of the step before. xpic(m): grid
 /// velocity filtered m - 1 times (Hammerquist & Nairn 2017) before the gather.
 #include <algorithm>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <memory>
@@ -85,6 +86,9 @@ class MpmStep final : public Kinematics {
 
   /// Wall-clock seconds spent in a phase since construction.
   double seconds(Phase phase) const { return watch_.seconds(static_cast<std::size_t>(phase)); }
+  /// Called in a step for each patch when its points have moved and are in the cache, by whatever
+  /// thread: what leaves it is out, what will come to it is not there yet. Empty: nobody looks.
+  void set_look(std::function<void(std::size_t patch)> look) { look_ = std::move(look); }
   /// Call after points were added or read from a checkpoint: links, memory, padding.
   void relink();
   /// The step taken last, after a restart [s].
@@ -243,6 +247,7 @@ class MpmStep final : public Kinematics {
     double scatter_seconds = 0;  ///< of the scatters ahead in one sweep
   };
   std::vector<ThreadMemory> memory_;
+  std::function<void(std::size_t)> look_;
 };
 
 }  // namespace krater
