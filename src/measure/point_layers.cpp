@@ -16,8 +16,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// Calls visit(lanes, lane) for the points of a set from `low` to `high` along an axis. Some lines
-/// of every record: the processor does not foresee it.
+/// Calls visit(lanes, lane) for the points of a set from `low` to `high` along an axis.
 template <class Visit>
 void for_points_between(const PointStore& points, int along, double low, double high,
                         const Visit& visit) {
@@ -186,7 +185,7 @@ void PointLayers::copy_between(Part& part, const Layer& layer, BodyPoints& to) c
                        const double* const x = lanes + kLanes * slots.x + lane;
                        const double* const m = lanes + kLanes * slots.mass + lane;
                        const double* const rho = lanes + kLanes * slots.density + lane;
-                       if (lane == 0)
+                       if (lane == 0)  // some lines of a record: not foreseen by the processor
                          for (const double* line : {x, x + kLanes, x + 2 * kLanes, m, rho})
                            __builtin_prefetch(line + ahead);
                        const Triple at{x[0], x[kLanes], space ? x[2 * kLanes] : 0.0};
